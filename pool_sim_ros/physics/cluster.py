@@ -1,0 +1,316 @@
+"""Several contacts at one instant: a rack being broken, a ball driven into a corner.
+
+Their normal impulses are found together, as a linear complementarity problem, so that the
+result does not depend on the order of the balls; then comes friction.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pool_sim_ros.physics.contact import (
+    contact_normal,
+    cushion_gap,
+    cushion_normal,
+    rub_balls,
+    rub_cushion,
+)
+from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.motion import CUSHION_X0, position_at, speed_at
+
+TOUCHING = 1e-9
+"""Gap in m up to which things are in contact at the same instant."""
+
+MAX_ITERATIONS = 20_000
+IMPULSE_PRECISION = 1e-14
+"""Relative change of the separation speeds at which the impulses are found."""
+
+CONTACT = np.dtype(
+    [
+        ('a', 'i8'),
+        ('b', 'i8'),  # a ball, or a cushion as in `motion`
+        ('nx', 'f8'),
+        ('ny', 'f8'),
+        ('closing', 'f8'),  # m/s, before
+        ('separation', 'f8'),  # m/s, wanted at least
+        ('impulse', 'f8'),  # N s
+        ('change', 'f8'),
+        ('compliance', 'f8'),  # 1/kg
+    ]
+)
+"""One of the contacts of an instant."""
+
+
+class Cluster(NamedTuple):
+    """Room for the contacts of an instant and the balls in them."""
+
+    contacts: np.ndarray
+    members: np.ndarray
+    is_member: np.ndarray
+    vx: np.ndarray
+    vy: np.ndarray
+    before_x: np.ndarray
+    before_y: np.ndarray
+    pushes: np.ndarray
+
+
+def new_cluster(n: int) -> Cluster:
+    """Return room for any cluster of `n` balls.
+
+    Circles that do not overlap have at most 3 n contacts among them, and 4 n with the cushions.
+    """
+    return Cluster(
+        np.zeros(7 * n, CONTACT),
+        np.zeros(n, np.int64),
+        np.zeros(n, np.bool_),
+        *(np.zeros(n) for _ in range(5)),
+    )
+
+
+@kernel
+def join(balls, world, cluster, members, ball, now):
+    """Add a ball to the cluster unless it is in; return how many there are then."""
+    if cluster.is_member[ball]:
+        return members
+    cluster.is_member[ball] = True
+    cluster.members[members] = ball
+    speed = speed_at(balls[ball], now, world.deceleration)
+    cluster.vx[ball] = balls[ball].ux * speed
+    cluster.vy[ball] = balls[ball].uy * speed
+    return members + 1
+
+
+@kernel
+def closing_speed(cluster, a, b, nx, ny):
+    """Return the speed in m/s at which two members, or a member and a cushion, approach."""
+    closing = cluster.vx[a] * nx + cluster.vy[a] * ny
+    if b >= 0:
+        closing -= cluster.vx[b] * nx + cluster.vy[b] * ny
+    return closing
+
+
+@kernel
+def add_contact(cluster, count, a, b, nx, ny, closing):
+    """Append a contact, of two balls the lower first; return how many there are then."""
+    contact = cluster.contacts[count]
+    if b >= 0 and b < a:
+        a, b, nx, ny = b, a, -nx, -ny
+    contact.a, contact.b = a, b
+    contact.nx, contact.ny = nx, ny
+    contact.closing = closing
+    return count + 1
+
+
+@kernel
+def gather(balls, world, cluster, a, b, now, slowest):
+    """Collect the contacts of this instant that hang together with that of `a` and `b`.
+
+    Parameters
+    ----------
+    balls : ndarray of BALL
+    world : World
+    cluster : Cluster
+        Filled.
+    a, b : int
+        The contact that is due: a ball, and a ball or a cushion. It is taken in any case.
+    now : float
+        s.
+    slowest : float
+        Other contacts take part where they close faster than this, m/s.
+
+    Returns
+    -------
+    contacts, members : int
+        How many there are of each.
+    """
+    members = join(balls, world, cluster, 0, a, now)
+    if b >= 0:
+        members = join(balls, world, cluster, members, b, now)
+    count = 0
+    done = 0
+    while done < members:
+        i = cluster.members[done]
+        done += 1
+        count = gather_cushions(balls, world, cluster, count, i, a, b, now, slowest)
+        xi, yi = position_at(balls[i], now, world.deceleration)
+        at_rest = balls[i].speed == 0.0
+        for k in range(len(balls)):
+            if k == i or (at_rest and balls[k].speed == 0.0 and slowest >= 0.0):
+                continue
+            xk, yk = position_at(balls[k], now, world.deceleration)
+            dx, dy = xk - xi, yk - yi
+            near = balls[i].radius + balls[k].radius + TOUCHING
+            due = (i == a and k == b) or (i == b and k == a)
+            if not due and dx * dx + dy * dy > near * near:
+                continue
+            if was_visited(cluster, done - 1, k):
+                continue
+            nx, ny = contact_normal(dx, dy)
+            speed = speed_at(balls[k], now, world.deceleration)
+            closing = cluster.vx[i] * nx + cluster.vy[i] * ny
+            closing -= speed * (balls[k].ux * nx + balls[k].uy * ny)
+            if due or closing > slowest:
+                members = join(balls, world, cluster, members, k, now)
+                count = add_contact(cluster, count, i, k, nx, ny, closing)
+    for m in range(members):
+        cluster.is_member[cluster.members[m]] = False
+    return count, members
+
+
+@kernel
+def was_visited(cluster, visited, ball):
+    """Return whether a member's contacts have been collected already."""
+    if not cluster.is_member[ball]:
+        return False
+    for m in range(visited):
+        if cluster.members[m] == ball:
+            return True
+    return False
+
+
+@kernel
+def gather_cushions(balls, world, cluster, count, i, a, b, now, slowest):
+    """Collect the contacts of member `i` with the cushions; return how many there are then."""
+    x, y = position_at(balls[i], now, world.deceleration)
+    for cushion in range(4):
+        partner = CUSHION_X0 - cushion
+        due = i == a and partner == b
+        if due or cushion_gap(world, x, y, balls[i].radius, cushion) <= TOUCHING:
+            nx, ny = cushion_normal(cushion)
+            closing = cluster.vx[i] * nx + cluster.vy[i] * ny
+            if due or closing > slowest:
+                count = add_contact(cluster, count, i, partner, nx, ny, closing)
+    return count
+
+
+@kernel
+def resolve(balls, world, cluster, count, members):
+    """Give the members their velocities after all contacts, whose `separation` is set."""
+    find_normal_impulses(balls, cluster, count)
+    for m in range(members):
+        ball = cluster.members[m]
+        cluster.pushes[ball] = 0.0
+        cluster.before_x[ball] = cluster.vx[ball]
+        cluster.before_y[ball] = cluster.vy[ball]
+    for c in range(count):
+        contact = cluster.contacts[c]
+        if contact.impulse > 0.0:
+            cluster.pushes[contact.a] += 1.0
+            if contact.b >= 0:
+                cluster.pushes[contact.b] += 1.0
+    for c in range(count):
+        if cluster.contacts[c].impulse > 0.0:
+            rub(balls, world, cluster, cluster.contacts[c])
+
+
+@kernel
+def find_normal_impulses(balls, cluster, count):
+    """Apply the least normal impulses after which every contact parts as fast as it must.
+
+    Solves ``0 <= L``, ``u(L) >= s``, ``L (u(L) - s) = 0`` for the separation speeds u and those
+    wanted, s, by projected Jacobi from zero with a step of 1 / sum |G_kl|: all contacts at once,
+    and safe where contacts outnumber the freedoms.
+    """
+    scale = 0.0
+    for c in range(count):
+        contact = cluster.contacts[c]
+        contact.impulse = 0.0
+        contact.compliance = total_compliance(balls, cluster, count, c)
+        scale = max(scale, abs(contact.closing) + contact.separation)
+    for _ in range(MAX_ITERATIONS):
+        largest = 0.0
+        for c in range(count):
+            contact = cluster.contacts[c]
+            closing = closing_speed(cluster, contact.a, contact.b, contact.nx, contact.ny)
+            wanted = (closing + contact.separation) / contact.compliance
+            contact.change = max(wanted, -contact.impulse)
+            largest = max(largest, abs(contact.change) * contact.compliance)
+        for c in range(count):
+            contact = cluster.contacts[c]
+            contact.impulse += contact.change
+            push(balls, cluster, contact, contact.change)
+        if largest <= IMPULSE_PRECISION * scale:
+            break
+
+
+@kernel
+def total_compliance(balls, cluster, count, c):
+    """Return ``sum_l |G_cl|``: what all impulses together can do to contact `c`, 1/kg."""
+    one = cluster.contacts[c]
+    total = 0.0
+    for k in range(count):
+        other = cluster.contacts[k]
+        along = abs(one.nx * other.nx + one.ny * other.ny)
+        if other.a == one.a or other.b == one.a:
+            total += along / balls[one.a].mass
+        if one.b >= 0 and (other.a == one.b or other.b == one.b):
+            total += along / balls[one.b].mass
+    return total
+
+
+@kernel
+def push(balls, cluster, contact, impulse):
+    """Apply a normal impulse in N s to both sides of a contact."""
+    a, b = contact.a, contact.b
+    cluster.vx[a] -= impulse * contact.nx / balls[a].mass
+    cluster.vy[a] -= impulse * contact.ny / balls[a].mass
+    if b >= 0:
+        cluster.vx[b] += impulse * contact.nx / balls[b].mass
+        cluster.vy[b] += impulse * contact.ny / balls[b].mass
+
+
+@kernel
+def rub(balls, world, cluster, contact):
+    """Apply the friction that goes with a contact's normal impulse.
+
+    `coulomb`: from the velocities that the normal impulses left, each ball's mass divided by the
+    number of contacts that push it, so that no energy is gained. `report`: one contact after
+    the other, as the listing does it.
+    """
+    a, b, nx, ny = contact.a, contact.b, contact.nx, contact.ny
+    mass_a = balls[a].mass
+    if world.coulomb:
+        ta = cluster.before_y[a] * nx - cluster.before_x[a] * ny
+    else:
+        ta = cluster.vy[a] * nx - cluster.vx[a] * ny
+    if b < 0:
+        change = contact.impulse / mass_a
+        after = rub_cushion(ta, change, world.mu_ball_cushion, cluster.pushes[a])
+        turn(cluster, a, nx, ny, after - ta)
+        return
+    if world.coulomb:
+        tb = cluster.before_y[b] * nx - cluster.before_x[b] * ny
+    else:
+        tb = cluster.vy[b] * nx - cluster.vx[b] * ny
+    after_a, after_b = rub_balls(
+        world, ta, tb, contact.impulse, mass_a, balls[b].mass, cluster.pushes[a], cluster.pushes[b]
+    )
+    turn(cluster, a, nx, ny, after_a - ta)
+    turn(cluster, b, nx, ny, after_b - tb)
+
+
+@kernel
+def turn(cluster, ball, nx, ny, change):
+    """Change a member's velocity by so much along the tangent of (nx, ny), m/s."""
+    cluster.vx[ball] -= change * ny
+    cluster.vy[ball] += change * nx
+
+
+@kernel
+def move_as_one(balls, cluster, count, members):
+    """Give all members their common velocity, less what goes into a cushion they touch."""
+    mass, px, py = 0.0, 0.0, 0.0
+    for m in range(members):
+        ball = cluster.members[m]
+        mass += balls[ball].mass
+        px += balls[ball].mass * cluster.vx[ball]
+        py += balls[ball].mass * cluster.vy[ball]
+    vx, vy = px / mass, py / mass
+    for c in range(count):
+        contact = cluster.contacts[c]
+        if contact.b < 0 and vx * contact.nx + vy * contact.ny > 0.0:
+            vx *= abs(contact.ny)
+            vy *= abs(contact.nx)
+    for m in range(members):
+        cluster.vx[cluster.members[m]] = vx
+        cluster.vy[cluster.members[m]] = vy

@@ -1,0 +1,85 @@
+"""Whether balls lie where they may: inside the cushions and not in one another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from pool_sim_ros.physics.kernel import kernel
+
+OVERLAP = 1e-9
+"""Overlap in m that is taken for touching: a thousand times what rounding makes, and unseen."""
+
+
+def check_layout(
+    positions: np.ndarray,
+    radii: np.ndarray,
+    length: float,
+    width: float,
+    labels: Sequence[str],
+    name: str,
+) -> None:
+    """Raise ValueError, naming the ball, where one is outside, in another or not finite.
+
+    Parameters
+    ----------
+    positions : ndarray of shape (n, 2)
+        m.
+    radii : ndarray of shape (n,)
+        m.
+    length, width : float
+        m.
+    labels : sequence of str
+        The balls' labels, for the message.
+    name : str
+        What the positions are called in the message.
+    """
+    i, j = first_fault(positions, radii, length, width)
+    if i >= 0:
+        fault = describe_fault(positions, radii, length, width, labels, i, j)
+        raise ValueError(f'{name}: {fault}')
+
+
+def describe_fault(positions, radii, length, width, labels, i, j) -> str:
+    """Say in one line what `first_fault` found."""
+    x, y = positions[i]
+    if j >= 0:
+        depth = radii[i] + radii[j] - np.hypot(*(positions[j] - positions[i]))
+        return f'ball {labels[i]!r} and ball {labels[j]!r} overlap by {depth:.3g} m'
+    if not (np.isfinite(x) and np.isfinite(y)):
+        return f'ball {labels[i]!r} is at ({x}, {y}), which is not finite'
+    return (
+        f'ball {labels[i]!r} of radius {radii[i]:g} m is at ({x:g}, {y:g}) m, outside the table of '
+        f'{length:g} x {width:g} m'
+    )
+
+
+@kernel
+def first_fault(positions, radii, length, width):
+    """Return (i, -1) for a ball outside, (i, j) for two that overlap, (-1, -1) for none.
+
+    Sweeps along x, so that a large table costs little more than a sort.
+    """
+    n = len(positions)
+    widest = 0.0
+    for i in range(n):
+        x, y, r = positions[i, 0], positions[i, 1], radii[i]
+        inside_x = r - OVERLAP <= x <= length - r + OVERLAP
+        inside_y = r - OVERLAP <= y <= width - r + OVERLAP
+        if not (inside_x and inside_y):
+            return i, -1
+        widest = max(widest, r)
+    order = np.argsort(positions[:, 0])
+    for k in range(n):
+        i = order[k]
+        for m in range(k + 1, n):
+            j = order[m]
+            dx = positions[j, 0] - positions[i, 0]
+            if dx > radii[i] + widest:
+                break
+            dy = positions[j, 1] - positions[i, 1]
+            least = radii[i] + radii[j] - OVERLAP
+            if least > 0.0 and dx * dx + dy * dy < least * least:
+                return min(i, j), max(i, j)
+    return -1, -1

@@ -1,0 +1,81 @@
+"""How a ball moves between two contacts, and the records that the kernels work on.
+
+A ball rolls along a straight line and loses speed at a constant rate until it
+rests, so its position is a parabola in time (report, Equation 10).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pool_sim_ros.physics.kernel import kernel
+
+BALL = np.dtype(
+    [
+        ('x', 'f8'),  # position at `since`, m
+        ('y', 'f8'),
+        ('ux', 'f8'),  # unit direction of motion; zero at rest
+        ('uy', 'f8'),
+        ('speed', 'f8'),  # at `since`, m/s; zero at rest
+        ('since', 'f8'),  # when this motion began, s
+        ('next', 'f8'),  # when this ball's next event is due, s; inf for none
+        ('touched', 'f8'),  # when it last was in a contact, s
+        ('radius', 'f8'),
+        ('mass', 'f8'),
+        ('partner', 'i8'),  # what it meets then: a ball, or a cushion or STOP as below
+        ('repeats', 'i8'),  # weak contacts in quick succession, up to now
+        ('rounds', 'i8'),  # contacts at the very instant `touched`
+        ('is_cue', 'i8'),
+    ],
+    align=True,
+)
+"""The state of one ball in the event-driven engine."""
+
+STOP = -1
+CUSHION_X0, CUSHION_X1, CUSHION_Y0, CUSHION_Y1 = -2, -3, -4, -5
+
+
+class World(NamedTuple):
+    """What the kernels know of the table."""
+
+    length: float
+    width: float
+    deceleration: float
+    mu_ball_ball: float
+    mu_ball_cushion: float
+    e_cue_ball: float
+    e_ball_ball: float
+    e_ball_cushion: float
+    coulomb: bool
+
+
+@kernel
+def position_at(ball, t, deceleration):
+    """Return (x, y) in m of a ball whose motion lasts until `t` at least."""
+    if ball.speed == 0.0:
+        return ball.x, ball.y
+    elapsed = t - ball.since
+    way = elapsed * (ball.speed - 0.5 * deceleration * elapsed)
+    return ball.x + ball.ux * way, ball.y + ball.uy * way
+
+
+@kernel
+def speed_at(ball, t, deceleration):
+    """Return the speed in m/s at `t`, zero from the stop on."""
+    return max(ball.speed - deceleration * (t - ball.since), 0.0)
+
+
+@kernel
+def stop_time(ball, deceleration):
+    """Return when a moving ball comes to rest if nothing is in its way, s."""
+    return ball.since + ball.speed / deceleration
+
+
+@kernel
+def set_velocity(ball, vx, vy):
+    """Set off at (vx, vy) in m/s from where the ball is."""
+    speed = np.sqrt(vx * vx + vy * vy)
+    if speed == 0.0:
+        ball.ux, ball.uy, ball.speed = 0.0, 0.0, 0.0
+    else:
+        ball.ux, ball.uy, ball.speed = vx / speed, vy / speed, speed

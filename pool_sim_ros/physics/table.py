@@ -1,0 +1,271 @@
+"""The table and its balls: what is given before a shot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from pool_sim_ros.physics.layout import check_layout
+from pool_sim_ros.physics.motion import BALL, World
+
+INCH = 0.0254
+"""One inch in metres."""
+
+BALL_FRICTION_LAWS = ('report', 'coulomb')
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A ball and where it starts.
+
+    Parameters
+    ----------
+    label : str
+        What is written on it, unique on its table.
+    mass : float
+        kg.
+    radius : float
+        m.
+    position : tuple of float
+        Centre (x, y) on the cloth, m.
+    color : tuple of float, optional
+        Red, green, blue, each 0 to 1.
+    is_cue : bool, optional
+        Whether contacts with this ball use the cue ball's restitution.
+
+    Raises
+    ------
+    ValueError
+        Where a value is not finite or out of its range.
+    """
+
+    label: str
+    mass: float
+    radius: float
+    position: tuple[float, float]
+    color: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    is_cue: bool = False
+
+    def __post_init__(self) -> None:
+        name = f'ball {self.label!r}'
+        if not isinstance(self.label, str) or not self.label:
+            raise ValueError(f'{name}: label must be a non-empty string')
+        _store(self, 'mass', _number(f'{name}: mass', self.mass, above=0.0))
+        _store(self, 'radius', _number(f'{name}: radius', self.radius, above=0.0))
+        _store(self, 'position', _numbers(f'{name}: position', self.position, 2))
+        _store(self, 'color', _numbers(f'{name}: color', self.color, 3, 0.0, 1.0))
+        _store(self, 'is_cue', bool(self.is_cue))
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table, the balls on it and the coefficients of their contacts.
+
+    x runs along the length, y along the width, from the corner of the cloth.
+    The cue ball is ``balls[0]``.
+
+    Parameters
+    ----------
+    length, width : float
+        Size of the cloth between the cushions, m.
+    balls : iterable of Ball
+        At least one; none overlaps another or a cushion by more than 1e-9 m.
+    mu_ball_ball, mu_ball_surface, mu_ball_cushion : float, optional
+        Coefficients of friction, at least 0.
+    e_cue_ball, e_ball_ball, e_ball_cushion : float, optional
+        Coefficients of restitution, 0 to 1: a pair with the cue ball, any
+        other pair, a ball and a cushion.
+    gravity : float, optional
+        m/s^2.
+    ball_friction : {'report', 'coulomb'}, optional
+        The law of friction between two balls.
+
+    Raises
+    ------
+    ValueError
+        Where a value is out of its range; names the field and the value.
+
+    Notes
+    -----
+    The defaults are the report's (Listing 3). ``e_cue_ball`` is 0.70 there:
+    the listing uses ``e_bc`` where its property list has ``e_cn`` = 0.95.
+    """
+
+    length: float
+    width: float
+    balls: tuple[Ball, ...]
+    mu_ball_ball: float = 0.05
+    mu_ball_surface: float = 0.10
+    mu_ball_cushion: float = 0.20
+    e_cue_ball: float = 0.70
+    e_ball_ball: float = 0.90
+    e_ball_cushion: float = 0.70
+    gravity: float = 9.80665
+    ball_friction: str = 'report'
+
+    def __post_init__(self) -> None:
+        for name in ('length', 'width', 'gravity'):
+            _store(self, name, _number(name, getattr(self, name), above=0.0))
+        for name in ('mu_ball_ball', 'mu_ball_surface', 'mu_ball_cushion'):
+            _store(self, name, _number(name, getattr(self, name), least=0.0))
+        for name in ('e_cue_ball', 'e_ball_ball', 'e_ball_cushion'):
+            _store(self, name, _number(name, getattr(self, name), least=0.0, most=1.0))
+        if self.ball_friction not in BALL_FRICTION_LAWS:
+            raise ValueError(
+                f"ball_friction: {self.ball_friction!r} is not a law; it must be 'report' or "
+                "'coulomb'"
+            )
+        _store(self, 'balls', _balls(self.balls))
+        check_layout(self.positions, self.radii, self.length, self.width, self.labels, 'balls')
+
+    @cached_property
+    def labels(self) -> tuple[str, ...]:
+        """The balls' labels, in order."""
+        return tuple(ball.label for ball in self.balls)
+
+    @cached_property
+    def positions(self) -> np.ndarray:
+        """Start positions, (n, 2), m; read-only."""
+        return _read_only([ball.position for ball in self.balls])
+
+    @cached_property
+    def radii(self) -> np.ndarray:
+        """Radii, (n,), m; read-only."""
+        return _read_only([ball.radius for ball in self.balls])
+
+    @cached_property
+    def masses(self) -> np.ndarray:
+        """Masses, (n,), kg; read-only."""
+        return _read_only([ball.mass for ball in self.balls])
+
+    @cached_property
+    def is_cue(self) -> np.ndarray:
+        """Whether each ball is the cue ball, (n,); read-only."""
+        return _read_only([ball.is_cue for ball in self.balls], dtype=bool)
+
+    @property
+    def deceleration(self) -> float:
+        """What a moving ball loses on the cloth, m/s^2 (report, Equation 10)."""
+        return self.mu_ball_surface * self.gravity
+
+    @cached_property
+    def world(self) -> World:
+        """What the kernels know of this table."""
+        return World(
+            self.length,
+            self.width,
+            self.deceleration,
+            self.mu_ball_ball,
+            self.mu_ball_cushion,
+            self.e_cue_ball,
+            self.e_ball_ball,
+            self.e_ball_cushion,
+            self.ball_friction == 'coulomb',
+        )
+
+    @cached_property
+    def balls_at_rest(self) -> np.ndarray:
+        """The kernels' records of the balls where they start, (n,) of `BALL`; read-only."""
+        records = np.zeros(len(self.balls), BALL)
+        records['x'], records['y'] = self.positions.T
+        records['radius'], records['mass'] = self.radii, self.masses
+        records['is_cue'] = self.is_cue
+        records['next'], records['touched'] = np.inf, -np.inf
+        records.flags.writeable = False
+        return records
+
+
+def report_table() -> Table:
+    """Return the report's table: its Table 1 and the constants of Listings 2 and 3."""
+    rows = (
+        ('C', 200, (66.00, 22.00), (255, 255, 255)),
+        ('1', 160, (40.08, 21.23), (255, 255, 0)),
+        ('2', 160, (17.52, 37.29), (0, 0, 255)),
+        ('3', 160, (12.53, 2.75), (255, 0, 0)),
+        ('4', 160, (10.47, 25.10), (144, 0, 255)),
+        ('5', 160, (27.32, 4.87), (255, 144, 0)),
+        ('6', 160, (16.25, 13.80), (0, 255, 0)),
+        ('7', 160, (7.60, 21.49), (163, 166, 27)),
+        ('8', 160, (10.81, 9.21), (0, 0, 0)),
+        ('9', 160, (26.19, 21.84), (138, 92, 51)),
+        ('10', 160, (19.78, 26.81), (0, 0, 144)),
+    )
+    balls = tuple(
+        Ball(
+            label=label,
+            mass=grams / 1000,
+            radius=2.25 * INCH,
+            position=(x * INCH, y * INCH),
+            color=tuple(level / 255 for level in rgb),
+            is_cue=label == 'C',
+        )
+        for label, grams, (x, y), rgb in rows
+    )
+    return Table(length=88 * INCH, width=44 * INCH, balls=balls)
+
+
+def _store(instance: object, name: str, value: object) -> None:
+    object.__setattr__(instance, name, value)
+
+
+def _number(
+    name: str,
+    value: object,
+    least: float = -math.inf,
+    most: float = math.inf,
+    above: float = -math.inf,
+) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f'{name}: {value!r} is not a number') from None
+    if not math.isfinite(number):
+        raise ValueError(f'{name}: {number} is not finite')
+    if number <= above:
+        raise ValueError(f'{name}: {number} must be above {above:g}')
+    if number < least:
+        raise ValueError(f'{name}: {number} must be at least {least:g}')
+    if number > most:
+        raise ValueError(f'{name}: {number} must be at most {most:g}')
+    return number
+
+
+def _numbers(
+    name: str, values: object, count: int, least: float = -math.inf, most: float = math.inf
+) -> tuple[float, ...]:
+    try:
+        items = tuple(values)
+    except TypeError:
+        items = ()
+    if isinstance(values, str) or len(items) != count:
+        raise ValueError(f'{name}: {values!r} must be {count} numbers')
+    return tuple(_number(name, item, least, most) for item in items)
+
+
+def _balls(balls: Iterable[Ball]) -> tuple[Ball, ...]:
+    try:
+        balls = tuple(balls)
+    except TypeError:
+        raise ValueError(f'balls: {balls!r} is not a sequence of Ball') from None
+    if not balls:
+        raise ValueError('balls: there are none; a table needs at least one ball')
+    seen: dict[str, int] = {}
+    for index, ball in enumerate(balls):
+        if not isinstance(ball, Ball):
+            raise ValueError(f'balls[{index}]: {ball!r} is not a Ball')
+        if ball.label in seen:
+            raise ValueError(
+                f'balls[{index}]: label {ball.label!r} is already that of balls[{seen[ball.label]}]'
+            )
+        seen[ball.label] = index
+    return balls
+
+
+def _read_only(values: list, dtype: type = float) -> np.ndarray:
+    array = np.array(values, dtype=dtype)
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,126 @@
+"""What an integrator returns: the whole of a shot, to be looked up at any time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.table import Table
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """The motion of all balls from the strike to rest, or to where the clock was stopped.
+
+    Attributes
+    ----------
+    table : Table
+        The table that was played on.
+    final_positions, final_velocities : ndarray of shape (n, 2)
+        At the end, m and m/s. The velocities are zero unless `until` cut the shot.
+    duration : float
+        Time from the strike until the last ball rests, or `until`, s.
+    events : structured ndarray
+        In order of time: ``t`` (s); ``kind``: 0 ball-ball (a < b), 1 cushion (b: 0 is x = 0,
+        1 is x = length, 2 is y = 0, 3 is y = width), 2 stop (b = -1); ``a``, ``b``; ``x``, ``y``:
+        the point of contact, or the centre of a ball that stops (m); ``nx``, ``ny``: the unit
+        vector from a to b or into the cushion, zero for a stop; ``speed``: closing speed before
+        the contact (m/s).
+    segments : structured ndarray
+        The parabolas, in order of time: ``ball``, ``t``, ``x``, ``y``, ``ux``, ``uy`` (unit
+        direction, zero at rest) and ``speed`` from ``t`` on.
+    complete : bool
+        Whether all balls are at rest at the end.
+    """
+
+    table: Table
+    final_positions: np.ndarray
+    final_velocities: np.ndarray
+    duration: float
+    events: np.ndarray
+    segments: np.ndarray
+    complete: bool
+
+    def positions(self, times: ArrayLike) -> np.ndarray:
+        """Return where the balls are.
+
+        Parameters
+        ----------
+        times : array_like of shape (k,) or float
+            Times since the strike, s, in any order; after the end the balls rest.
+
+        Returns
+        -------
+        ndarray of shape (k, n, 2), or (n, 2) for a single time
+            m.
+
+        Raises
+        ------
+        ValueError
+            Where a time is negative, not a number, or after a cut by `until`.
+        """
+        return self._look_up(times, 0)
+
+    def velocities(self, times: ArrayLike) -> np.ndarray:
+        """Return how fast the balls move, in m/s; as `positions`. At an event: just after it."""
+        return self._look_up(times, 1)
+
+    def _look_up(self, times: ArrayLike, what: int) -> np.ndarray:
+        asked = np.asarray(times, dtype=float)
+        if asked.ndim > 1:
+            raise ValueError(f'times: shape {asked.shape} must be one-dimensional')
+        flat = np.atleast_1d(asked)
+        self._check(flat)
+        n = len(self.final_positions)
+        found = np.empty((len(flat), n, 2))
+        first, order = self._by_ball
+        look_up(self.segments, first, order, flat, self.table.deceleration, what, found)
+        return found if asked.ndim else found[0]
+
+    def _check(self, times: np.ndarray) -> None:
+        bad = ~(times >= 0.0)
+        if bad.any():
+            raise ValueError(f'times: {times[bad][0]} must be a time since the strike, 0 or more')
+        if not self.complete and (times > self.duration).any():
+            late = times[times > self.duration][0]
+            raise ValueError(f'times: {late} is after the shot was cut, at {self.duration} s')
+
+    @cached_property
+    def _by_ball(self) -> tuple[np.ndarray, np.ndarray]:
+        """Where each ball's segments begin in an order that sorts them by ball, and that order."""
+        order = np.argsort(self.segments['ball'], kind='stable')
+        counts = np.bincount(self.segments['ball'], minlength=len(self.final_positions))
+        return np.concatenate([[0], np.cumsum(counts)]), order
+
+
+@kernel
+def look_up(segments, first, order, times, deceleration, what, found):
+    """Fill `found`, (k, n, 2), with positions (`what` 0) or velocities (1) at `times`, (k,)."""
+    for i in range(len(first) - 1):
+        for k in range(len(times)):
+            low, high = first[i], first[i + 1]
+            while high - low > 1:
+                middle = (low + high) // 2
+                if segments[order[middle]].t <= times[k]:
+                    low = middle
+                else:
+                    high = middle
+            segment = segments[order[low]]
+            speed = segment.speed
+            elapsed = times[k] - segment.t
+            if deceleration * elapsed > speed:
+                elapsed = speed / deceleration
+            if speed == 0.0:
+                elapsed = 0.0
+            if what == 0:
+                way = elapsed * (speed - 0.5 * deceleration * elapsed)
+                found[k, i, 0] = segment.x + segment.ux * way
+                found[k, i, 1] = segment.y + segment.uy * way
+            else:
+                now = max(speed - deceleration * elapsed, 0.0)
+                found[k, i, 0] = segment.ux * now
+                found[k, i, 1] = segment.uy * now
