@@ -242,9 +242,9 @@ def total_compliance(balls, cluster, count, c):
         other = cluster.contacts[k]
         along = abs(one.nx * other.nx + one.ny * other.ny)
         if other.a == one.a or other.b == one.a:
-            total += along / balls[one.a].mass
+            total += along * balls[one.a].inverse_mass
         if one.b >= 0 and (other.a == one.b or other.b == one.b):
-            total += along / balls[one.b].mass
+            total += along * balls[one.b].inverse_mass
     return total
 
 
@@ -252,11 +252,11 @@ def total_compliance(balls, cluster, count, c):
 def push(balls, cluster, contact, impulse):
     """Apply a normal impulse in N s to both sides of a contact."""
     a, b = contact.a, contact.b
-    cluster.vx[a] -= impulse * contact.nx / balls[a].mass
-    cluster.vy[a] -= impulse * contact.ny / balls[a].mass
+    cluster.vx[a] -= impulse * contact.nx * balls[a].inverse_mass
+    cluster.vy[a] -= impulse * contact.ny * balls[a].inverse_mass
     if b >= 0:
-        cluster.vx[b] += impulse * contact.nx / balls[b].mass
-        cluster.vy[b] += impulse * contact.ny / balls[b].mass
+        cluster.vx[b] += impulse * contact.nx * balls[b].inverse_mass
+        cluster.vy[b] += impulse * contact.ny * balls[b].inverse_mass
 
 
 @kernel
@@ -268,13 +268,13 @@ def rub(balls, world, cluster, contact):
     the other, as the listing does it.
     """
     a, b, nx, ny = contact.a, contact.b, contact.nx, contact.ny
-    mass_a = balls[a].mass
+    inverse_a = balls[a].inverse_mass
     if world.coulomb:
         ta = cluster.before_y[a] * nx - cluster.before_x[a] * ny
     else:
         ta = cluster.vy[a] * nx - cluster.vx[a] * ny
     if b < 0:
-        change = contact.impulse / mass_a
+        change = contact.impulse * inverse_a
         after = rub_cushion(ta, change, world.mu_ball_cushion, cluster.pushes[a])
         turn(cluster, a, nx, ny, after - ta)
         return
@@ -283,7 +283,14 @@ def rub(balls, world, cluster, contact):
     else:
         tb = cluster.vy[b] * nx - cluster.vx[b] * ny
     after_a, after_b = rub_balls(
-        world, ta, tb, contact.impulse, mass_a, balls[b].mass, cluster.pushes[a], cluster.pushes[b]
+        world,
+        ta,
+        tb,
+        contact.impulse,
+        inverse_a,
+        balls[b].inverse_mass,
+        cluster.pushes[a],
+        cluster.pushes[b],
     )
     turn(cluster, a, nx, ny, after_a - ta)
     turn(cluster, b, nx, ny, after_b - tb)
@@ -302,9 +309,9 @@ def move_as_one(balls, cluster, count, members):
     mass, px, py = 0.0, 0.0, 0.0
     for m in range(members):
         ball = cluster.members[m]
-        mass += balls[ball].mass
-        px += balls[ball].mass * cluster.vx[ball]
-        py += balls[ball].mass * cluster.vy[ball]
+        mass += 1.0 / balls[ball].inverse_mass
+        px += cluster.vx[ball] / balls[ball].inverse_mass
+        py += cluster.vy[ball] / balls[ball].inverse_mass
     vx, vy = px / mass, py / mass
     for c in range(count):
         contact = cluster.contacts[c]

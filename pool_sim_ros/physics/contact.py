@@ -31,9 +31,9 @@ def restitution(world, a_is_cue, b_is_cue):
 
 
 @kernel
-def reduced_mass(mass_a, mass_b):
-    """Return ``m_a m_b / (m_a + m_b)`` in kg."""
-    return mass_a * mass_b / (mass_a + mass_b)
+def reduced_mass(inverse_a, inverse_b):
+    """Return ``m_a m_b / (m_a + m_b)`` in kg from the inverses of both masses."""
+    return 1.0 / (inverse_a + inverse_b)
 
 
 @kernel
@@ -61,7 +61,7 @@ def report_friction(tangential, other_tangential, normal_loss, mu):
 
 
 @kernel
-def rub_balls(world, va_t, vb_t, normal_impulse, mass_a, mass_b, share_a, share_b):
+def rub_balls(world, va_t, vb_t, normal_impulse, inverse_a, inverse_b, share_a, share_b):
     """Return both tangential velocities after the friction of one contact.
 
     `share_a` and `share_b` say with how many contacts of the same instant each ball shares its
@@ -69,14 +69,14 @@ def rub_balls(world, va_t, vb_t, normal_impulse, mass_a, mass_b, share_a, share_
     where the slip is zero, so there a slip that is no more than rounding counts as none.
     """
     if world.coulomb:
-        mass = reduced_mass(mass_a / share_a, mass_b / share_b)
+        mass = reduced_mass(inverse_a * share_a, inverse_b * share_b)
         impulse = coulomb_impulse(normal_impulse, va_t - vb_t, mass, world.mu_ball_ball)
-        return va_t + impulse / mass_a, vb_t - impulse / mass_b
-    if abs(va_t - vb_t) <= NO_SLIP * normal_impulse * (1.0 / mass_a + 1.0 / mass_b):
+        return va_t + impulse * inverse_a, vb_t - impulse * inverse_b
+    if abs(va_t - vb_t) <= NO_SLIP * normal_impulse * (inverse_a + inverse_b):
         return va_t, vb_t
     return (
-        report_friction(va_t, vb_t, normal_impulse / mass_a, world.mu_ball_ball),
-        report_friction(vb_t, va_t, -normal_impulse / mass_b, world.mu_ball_ball),
+        report_friction(va_t, vb_t, normal_impulse * inverse_a, world.mu_ball_ball),
+        report_friction(vb_t, va_t, -normal_impulse * inverse_b, world.mu_ball_ball),
     )
 
 
@@ -90,7 +90,7 @@ def rub_cushion(tangential, normal_change, mu, share):
 
 
 @kernel
-def collide_balls(world, va, vb, normal, mass_a, mass_b, separation):
+def collide_balls(world, va, vb, normal, inverse_a, inverse_b, separation):
     """Return both velocities after a contact of two balls that nothing else touches.
 
     Parameters
@@ -99,8 +99,8 @@ def collide_balls(world, va, vb, normal, mass_a, mass_b, separation):
         Coefficients and law of friction.
     va, vb, normal : tuple of float
         Velocities before, and the unit vector from a to b.
-    mass_a, mass_b : float
-        kg.
+    inverse_a, inverse_b : float
+        Inverses of the masses, 1/kg.
     separation : float
         Speed at which they part along the normal: ``e (v_a - v_b)`` by report, Equation 2.
 
@@ -112,10 +112,10 @@ def collide_balls(world, va, vb, normal, mass_a, mass_b, separation):
     nx, ny = normal
     va_n, va_t = va[0] * nx + va[1] * ny, va[1] * nx - va[0] * ny
     vb_n, vb_t = vb[0] * nx + vb[1] * ny, vb[1] * nx - vb[0] * ny
-    impulse = (va_n - vb_n + separation) * reduced_mass(mass_a, mass_b)
-    va_n -= impulse / mass_a
-    vb_n += impulse / mass_b
-    va_t, vb_t = rub_balls(world, va_t, vb_t, impulse, mass_a, mass_b, 1.0, 1.0)
+    impulse = (va_n - vb_n + separation) * reduced_mass(inverse_a, inverse_b)
+    va_n -= impulse * inverse_a
+    vb_n += impulse * inverse_b
+    va_t, vb_t = rub_balls(world, va_t, vb_t, impulse, inverse_a, inverse_b, 1.0, 1.0)
     return (
         (va_n * nx - va_t * ny, va_n * ny + va_t * nx),
         (vb_n * nx - vb_t * ny, vb_n * ny + vb_t * nx),
@@ -156,5 +156,5 @@ def cushion_gap(world, x, y, radius, cushion):
 @kernel
 def contact_normal(dx, dy):
     """Return the unit vector along (dx, dy)."""
-    distance = np.sqrt(dx * dx + dy * dy)
-    return dx / distance, dy / distance
+    inverse = 1.0 / np.sqrt(dx * dx + dy * dy)
+    return dx * inverse, dy * inverse

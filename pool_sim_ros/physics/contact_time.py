@@ -58,6 +58,20 @@ def first_root(gap, closing, opening):
 
 
 @kernel
+def passes_by(dx, dy, wx, wy, gx, gy, touch, horizon):
+    """Return whether two balls stay too far apart sideways to touch before `horizon`.
+
+    Across the relative velocity w the second ball moves by its acceleration alone, from
+    ``d x w`` to ``d x w + t^2 g x w / 2``, in units of |w|. Arguments as `time_to_moving_ball`.
+    """
+    before = dx * wy - dy * wx
+    after = before + 0.5 * horizon * horizon * (gx * wy - gy * wx)
+    least = min(abs(before), abs(after))
+    margin = touch * touch * (wx * wx + wy * wy)
+    return before * after > 0.0 and least * least > margin * (1.0 + 1e-9)
+
+
+@kernel
 def time_to_moving_ball(dx, dy, wx, wy, gx, gy, touch, horizon):
     """Return the time in s until two moving balls touch; inf if not before `horizon`.
 
@@ -78,14 +92,17 @@ def time_to_moving_ball(dx, dy, wx, wy, gx, gy, touch, horizon):
     lower bound of the contact time: step there and repeat. It cannot step past a
     contact, and converges as Newton's method does.
     """
-    if dx * wx + dy * wy >= 0.0 and dx * gx + dy * gy >= 0.0:
+    if horizon <= 0.0 or (dx * wx + dy * wy >= 0.0 and dx * gx + dy * gy >= 0.0):
+        return np.inf
+    if passes_by(dx, dy, wx, wy, gx, gy, touch, horizon):
         return np.inf
     t = 0.0
     for _ in range(MAX_STEPS):
         px = dx + t * (wx + 0.5 * t * gx)
         py = dy + t * (wy + 0.5 * t * gy)
         distance = np.sqrt(px * px + py * py)
-        nx, ny = px / distance, py / distance
+        inverse = 1.0 / distance
+        nx, ny = px * inverse, py * inverse
         gap = max(distance - touch, 0.0)
         closing = -(nx * (wx + t * gx) + ny * (wy + t * gy))
         step = first_root(gap, closing, nx * gx + ny * gy)

@@ -22,6 +22,7 @@ BALL = np.dtype(
         ('touched', 'f8'),  # when it last was in a contact, s
         ('radius', 'f8'),
         ('mass', 'f8'),
+        ('inverse_mass', 'f8'),
         ('partner', 'i8'),  # what it meets then: a ball, or a cushion or STOP as below
         ('repeats', 'i8'),  # weak contacts in quick succession, up to now
         ('rounds', 'i8'),  # contacts at the very instant `touched`
@@ -78,4 +79,5 @@ def set_velocity(ball, vx, vy):
     if speed == 0.0:
         ball.ux, ball.uy, ball.speed = 0.0, 0.0, 0.0
     else:
-        ball.ux, ball.uy, ball.speed = vx / speed, vy / speed, speed
+        inverse = 1.0 / speed
+        ball.ux, ball.uy, ball.speed = vx * inverse, vy * inverse, speed

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from pool_sim_ros.physics import event_driven
 from pool_sim_ros.physics import time_slice as time_slicing
+from pool_sim_ros.physics.checks import number
 from pool_sim_ros.physics.layout import check_layout
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
@@ -147,11 +148,8 @@ def _check(table, positions, integrator, time_slice, until):
     """Return the balls at their places, and the end of the clock; raise ValueError."""
     if integrator not in INTEGRATORS:
         raise ValueError(f"integrator: {integrator!r} must be 'event' or 'time_slice'")
-    if not (math.isfinite(time_slice) and time_slice > 0.0):
-        raise ValueError(f'time_slice: {time_slice} must be a finite time above 0 s')
-    if until is not None and not (math.isfinite(until) and until >= 0.0):
-        raise ValueError(f'until: {until} must be a finite time, 0 s or more')
-    limit = math.inf if until is None else float(until)
+    number('time_slice', time_slice, above=0.0)
+    limit = math.inf if until is None else number('until', until, least=0.0)
     if positions is None:
         return table.balls_at_rest, limit
     n = len(table.balls)

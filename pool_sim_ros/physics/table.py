@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from pool_sim_ros.physics.checks import number, numbers
 from pool_sim_ros.physics.layout import check_layout
 from pool_sim_ros.physics.motion import BALL, World
 
@@ -54,10 +54,10 @@ class Ball:
         name = f'ball {self.label!r}'
         if not isinstance(self.label, str) or not self.label:
             raise ValueError(f'{name}: label must be a non-empty string')
-        _store(self, 'mass', _number(f'{name}: mass', self.mass, above=0.0))
-        _store(self, 'radius', _number(f'{name}: radius', self.radius, above=0.0))
-        _store(self, 'position', _numbers(f'{name}: position', self.position, 2))
-        _store(self, 'color', _numbers(f'{name}: color', self.color, 3, 0.0, 1.0))
+        _store(self, 'mass', number(f'{name}: mass', self.mass, above=0.0))
+        _store(self, 'radius', number(f'{name}: radius', self.radius, above=0.0))
+        _store(self, 'position', numbers(f'{name}: position', self.position, 2))
+        _store(self, 'color', numbers(f'{name}: color', self.color, 3, 0.0, 1.0))
         _store(self, 'is_cue', bool(self.is_cue))
 
 
@@ -109,11 +109,11 @@ class Table:
 
     def __post_init__(self) -> None:
         for name in ('length', 'width', 'gravity'):
-            _store(self, name, _number(name, getattr(self, name), above=0.0))
+            _store(self, name, number(name, getattr(self, name), above=0.0))
         for name in ('mu_ball_ball', 'mu_ball_surface', 'mu_ball_cushion'):
-            _store(self, name, _number(name, getattr(self, name), least=0.0))
+            _store(self, name, number(name, getattr(self, name), least=0.0))
         for name in ('e_cue_ball', 'e_ball_ball', 'e_ball_cushion'):
-            _store(self, name, _number(name, getattr(self, name), least=0.0, most=1.0))
+            _store(self, name, number(name, getattr(self, name), least=0.0, most=1.0))
         if self.ball_friction not in BALL_FRICTION_LAWS:
             raise ValueError(
                 f"ball_friction: {self.ball_friction!r} is not a law; it must be 'report' or "
@@ -172,7 +172,8 @@ class Table:
         """The kernels' records of the balls where they start, (n,) of `BALL`; read-only."""
         records = np.zeros(len(self.balls), BALL)
         records['x'], records['y'] = self.positions.T
-        records['radius'], records['mass'] = self.radii, self.masses
+        records['radius'] = self.radii
+        records['mass'], records['inverse_mass'] = self.masses, 1.0 / self.masses
         records['is_cue'] = self.is_cue
         records['next'], records['touched'] = np.inf, -np.inf
         records.flags.writeable = False
@@ -210,40 +211,6 @@ def report_table() -> Table:
 
 def _store(instance: object, name: str, value: object) -> None:
     object.__setattr__(instance, name, value)
-
-
-def _number(
-    name: str,
-    value: object,
-    least: float = -math.inf,
-    most: float = math.inf,
-    above: float = -math.inf,
-) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise ValueError(f'{name}: {value!r} is not a number') from None
-    if not math.isfinite(number):
-        raise ValueError(f'{name}: {number} is not finite')
-    if number <= above:
-        raise ValueError(f'{name}: {number} must be above {above:g}')
-    if number < least:
-        raise ValueError(f'{name}: {number} must be at least {least:g}')
-    if number > most:
-        raise ValueError(f'{name}: {number} must be at most {most:g}')
-    return number
-
-
-def _numbers(
-    name: str, values: object, count: int, least: float = -math.inf, most: float = math.inf
-) -> tuple[float, ...]:
-    try:
-        items = tuple(values)
-    except TypeError:
-        items = ()
-    if isinstance(values, str) or len(items) != count:
-        raise ValueError(f'{name}: {values!r} must be {count} numbers')
-    return tuple(_number(name, item, least, most) for item in items)
 
 
 def _balls(balls: Iterable[Ball]) -> tuple[Ball, ...]:

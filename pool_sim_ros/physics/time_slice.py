@@ -14,7 +14,6 @@ import numpy as np
 
 from pool_sim_ros.physics.contact import (
     coulomb_impulse,
-    reduced_mass,
     report_friction,
     restitution,
     sign,
@@ -232,12 +231,13 @@ def next_look(state, a, b, gap, step):
 
 @kernel
 def look_at_next_slice(state, i):
-    """Make all pairs with ball `i` due: its speed is new."""
+    """Make all pairs with ball `i` due, where they are not already: its speed is new."""
     n = len(state.moving)
     for k in range(n):
         if k != i:
             a, b = min(i, k), max(i, k)
-            state.due[a * n - a * (a + 1) // 2 + b - a - 1] = state.clock[0] + 1
+            pair = a * n - a * (a + 1) // 2 + b - a - 1
+            state.due[pair] = min(state.due[pair], state.clock[0] + 1)
 
 
 @kernel
@@ -254,7 +254,7 @@ def collide(state, balls, world, a, b, now, log):
     new_b_n = (momentum + mass_a * e * (a_n - b_n)) / (mass_a + mass_b)
     if world.coulomb:
         normal = abs(mass_a * (a_n - new_a_n))
-        mass = reduced_mass(mass_a, mass_b)
+        mass = mass_a * mass_b / (mass_a + mass_b)
         tangential = coulomb_impulse(normal, a_t - b_t, mass, world.mu_ball_ball)
         new_a_t, new_b_t = a_t + tangential / mass_a, b_t - tangential / mass_b
     else:

@@ -1,0 +1,215 @@
+"""Resolve what is due: one contact in closed form, several of one instant together."""
+
+from pool_sim_ros.physics.cluster import TOUCHING, gather, move_as_one, resolve
+from pool_sim_ros.physics.contact import (
+    collide_balls,
+    collide_cushion,
+    contact_normal,
+    cushion_normal,
+    restitution,
+)
+from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.motion import CUSHION_X0, CUSHION_X1, position_at, set_velocity, speed_at
+from pool_sim_ros.physics.record import BALL_BALL, CUSHION, log_event, log_segment
+
+V_MIN = 1e-4
+"""Contacts that close slower, in m/s, are weak: they take no part in another's instant, and may
+belong to a collapse, bouncing ever faster."""
+
+V_ROUNDING = 1e-11
+"""Speed in m/s at which a weak contact parts at the least, so that rounding cannot close it."""
+
+COLLAPSE_GROWTH = 4.0
+"""What that speed is multiplied by at each repeat, up to V_MIN: this ends a collapse."""
+
+REPEAT_WINDOW = 1e-3
+"""Time in s within which a weak contact repeats an earlier one."""
+
+MAX_ROUNDS = 200
+"""Contacts of one ball at one instant after which its cluster is pulled apart at V_MIN."""
+
+LAST_ROUND = 250
+"""The same, after which the cluster moves as one: it is wedged and cannot part."""
+
+
+@kernel
+def stands_alone(balls, world, a, b, now):
+    """Return whether nothing else can collide with moving ball `a` or with `b` at this instant."""
+    if rounds_at(balls, a, b, now) > MAX_ROUNDS:
+        return False
+    xa, ya = position_at(balls[a], now, world.deceleration)
+    if b < 0:
+        if touches_cushion(world, xa, ya, balls[a].radius, CUSHION_X0 - b):
+            return False
+        for k in range(len(balls)):
+            if k != a and touches(balls[k], xa, ya, balls[a].radius, now, world):
+                return False
+        return True
+    if touches_cushion(world, xa, ya, balls[a].radius, -1):
+        return False
+    xb, yb = position_at(balls[b], now, world.deceleration)
+    b_moves = balls[b].speed > 0.0
+    if b_moves and touches_cushion(world, xb, yb, balls[b].radius, -1):
+        return False
+    for k in range(len(balls)):
+        if k != a and k != b:
+            if touches(balls[k], xa, ya, balls[a].radius, now, world):
+                return False
+            if b_moves or balls[k].speed > 0.0:
+                if touches(balls[k], xb, yb, balls[b].radius, now, world):
+                    return False
+    return True
+
+
+@kernel
+def touches(ball, x, y, radius, now, world):
+    """Return whether a ball is in contact with one of `radius` at (x, y)."""
+    xk, yk = position_at(ball, now, world.deceleration)
+    near = ball.radius + radius + TOUCHING
+    return (xk - x) * (xk - x) + (yk - y) * (yk - y) <= near * near
+
+
+@kernel
+def touches_cushion(world, x, y, radius, but):
+    """Return whether a ball at (x, y) is in contact with a cushion other than number `but`."""
+    near = radius + TOUCHING
+    return (
+        (x <= near and but != 0)
+        or (world.length - x <= near and but != 1)
+        or (y <= near and but != 2)
+        or (world.width - y <= near and but != 3)
+    )
+
+
+@kernel
+def rounds_at(balls, a, b, now):
+    """Return how many contacts at this very instant the more stricken of two balls has had."""
+    rounds = balls[a].rounds if balls[a].touched == now else 0
+    if b >= 0 and balls[b].touched == now:
+        rounds = max(rounds, balls[b].rounds)
+    return rounds
+
+
+@kernel
+def separation_speed(balls, world, a, b, closing, now):
+    """Return the speed in m/s at which the two sides of a contact are to part.
+
+    Restitution times the closing speed; but balls that meet weakly, and again within a moment,
+    part a little faster each time, up to V_MIN. This ends the infinitely many bounces in finite
+    time (inelastic collapse) that decelerating balls can fall into.
+    """
+    closing = max(closing, 0.0)
+    if b < 0:
+        return world.e_ball_cushion * closing
+    parting = restitution(world, balls[a].is_cue, balls[b].is_cue) * closing
+    if closing > V_MIN:
+        return parting
+    repeats = 0
+    if now - max(balls[a].touched, balls[b].touched) < REPEAT_WINDOW:
+        repeats = min(max(balls[a].repeats, balls[b].repeats) + 1, 20)
+    balls[a].repeats = repeats
+    balls[b].repeats = repeats
+    return max(parting, min(V_MIN, V_ROUNDING * COLLAPSE_GROWTH**repeats))
+
+
+@kernel
+def bring_to(balls, world, i, now):
+    """Begin the motion of ball `i` anew at `now`; return its velocity, m/s."""
+    ball = balls[i]
+    speed = speed_at(ball, now, world.deceleration)
+    ball.x, ball.y = position_at(ball, now, world.deceleration)
+    ball.since = now
+    return ball.ux * speed, ball.uy * speed
+
+
+@kernel
+def leave(balls, i, velocity, now, log):
+    """Set ball `i` off after a contact."""
+    ball = balls[i]
+    ball.rounds = ball.rounds + 1 if ball.touched == now else 1
+    ball.touched = now
+    set_velocity(ball, velocity[0], velocity[1])
+    log_motion(balls, i, now, log)
+
+
+@kernel
+def log_motion(balls, i, now, log):
+    """Write down how ball `i` moves from now on."""
+    ball = balls[i]
+    log_segment(log, i, now, ball.x, ball.y, ball.ux, ball.uy, ball.speed)
+
+
+@kernel
+def hit_ball(balls, world, a, b, now, log):
+    """Resolve a contact of two balls that nothing else touches."""
+    a, b = min(a, b), max(a, b)
+    va = bring_to(balls, world, a, now)
+    vb = bring_to(balls, world, b, now)
+    nx, ny = contact_normal(balls[b].x - balls[a].x, balls[b].y - balls[a].y)
+    closing = (va[0] - vb[0]) * nx + (va[1] - vb[1]) * ny
+    parting = separation_speed(balls, world, a, b, closing, now)
+    inverse_a, inverse_b = balls[a].inverse_mass, balls[b].inverse_mass
+    va, vb = collide_balls(world, va, vb, (nx, ny), inverse_a, inverse_b, parting)
+    log_contact(balls, a, b, nx, ny, closing, now, log)
+    leave(balls, a, va, now, log)
+    leave(balls, b, vb, now, log)
+
+
+@kernel
+def hit_cushion(balls, world, a, partner, now, log):
+    """Resolve a contact of a ball that touches nothing but one cushion."""
+    vx, vy = bring_to(balls, world, a, now)
+    nx, ny = cushion_normal(CUSHION_X0 - partner)
+    log_contact(balls, a, partner, nx, ny, vx * nx + vy * ny, now, log)
+    if partner >= CUSHION_X1:
+        vx, vy = collide_cushion(world, vx, vy)
+    else:
+        vy, vx = collide_cushion(world, vy, vx)
+    leave(balls, a, (vx, vy), now, log)
+
+
+@kernel
+def gather_crowd(balls, world, cluster, a, b, now):
+    """Collect the contacts to be resolved together; return their and the balls' number."""
+    if rounds_at(balls, a, b, now) > MAX_ROUNDS:
+        return gather(balls, world, cluster, a, b, now, -1e300)
+    count, members = gather(balls, world, cluster, a, b, now, V_MIN)
+    for c in range(count):
+        if cluster.contacts[c].closing <= V_MIN:
+            return gather(balls, world, cluster, a, b, now, 0.0)
+    return count, members
+
+
+@kernel
+def hit_crowd(balls, world, cluster, count, members, now, log):
+    """Resolve the contacts of a cluster, which `gather_crowd` collected."""
+    rounds = 0
+    for c in range(count):
+        one = cluster.contacts[c]
+        rounds = max(rounds, rounds_at(balls, one.a, one.b, now))
+        one.separation = separation_speed(balls, world, one.a, one.b, one.closing, now)
+        if rounds > MAX_ROUNDS:
+            one.separation = V_MIN if one.closing > 0.0 else 0.0
+    if rounds > LAST_ROUND:
+        move_as_one(balls, cluster, count, members)
+    else:
+        resolve(balls, world, cluster, count, members)
+    for m in range(members):
+        bring_to(balls, world, cluster.members[m], now)
+    for c in range(count):
+        one = cluster.contacts[c]
+        log_contact(balls, one.a, one.b, one.nx, one.ny, one.closing, now, log)
+    for m in range(members):
+        i = cluster.members[m]
+        leave(balls, i, (cluster.vx[i], cluster.vy[i]), now, log)
+
+
+@kernel
+def log_contact(balls, a, b, nx, ny, closing, now, log):
+    """Write a contact down."""
+    ball = balls[a]
+    x, y = ball.x + nx * ball.radius, ball.y + ny * ball.radius
+    if b >= 0:
+        log_event(log, now, BALL_BALL, a, b, x, y, nx, ny, closing)
+    else:
+        log_event(log, now, CUSHION, a, CUSHION_X0 - b, x, y, nx, ny, closing)
