@@ -23,7 +23,7 @@ TOUCHING = 1e-9
 
 MAX_ITERATIONS = 20_000
 IMPULSE_PRECISION = 1e-14
-"""Relative change of the separation speeds at which the impulses are found."""
+"""Change of the separation speeds, beside the speeds, at which the impulses are found."""
 
 CONTACT = np.dtype(
     [
@@ -186,7 +186,7 @@ def gather_cushions(balls, world, cluster, count, i, a, b, now, slowest):
 @kernel
 def resolve(balls, world, cluster, count, members):
     """Give the members their velocities after all contacts, whose `separation` is set."""
-    find_normal_impulses(balls, cluster, count)
+    find_normal_impulses(balls, cluster, count, members)
     for m in range(members):
         ball = cluster.members[m]
         cluster.pushes[ball] = 0.0
@@ -204,7 +204,7 @@ def resolve(balls, world, cluster, count, members):
 
 
 @kernel
-def find_normal_impulses(balls, cluster, count):
+def find_normal_impulses(balls, cluster, count, members):
     """Apply the least normal impulses after which every contact parts as fast as it must.
 
     Solves ``0 <= L``, ``u(L) >= s``, ``L (u(L) - s) = 0`` for the separation speeds u and those
@@ -217,6 +217,9 @@ def find_normal_impulses(balls, cluster, count):
         contact.impulse = 0.0
         contact.compliance = total_compliance(balls, cluster, count, c)
         scale = max(scale, abs(contact.closing) + contact.separation)
+    for m in range(members):
+        ball = cluster.members[m]
+        scale = max(scale, abs(cluster.vx[ball]) + abs(cluster.vy[ball]))
     for _ in range(MAX_ITERATIONS):
         largest = 0.0
         for c in range(count):

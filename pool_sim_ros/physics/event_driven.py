@@ -15,7 +15,7 @@ from pool_sim_ros.physics.collision import (
 )
 from pool_sim_ros.physics.kernel import kernel
 from pool_sim_ros.physics.motion import STOP, position_at, set_velocity, speed_at
-from pool_sim_ros.physics.prediction import aim_at_resting, earliest, predict_after, predict_all
+from pool_sim_ros.physics.prediction import earliest, offer_resting, predict_after, predict_all
 from pool_sim_ros.physics.record import STOPPED, enlarged, has_room, log_event, new_log
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
@@ -132,9 +132,7 @@ def stop(balls, world, a, now, log):
     ball.next = np.inf
     log_event(log, now, STOPPED, a, -1, ball.x, ball.y, 0.0, 0.0, 0.0)
     log_motion(balls, a, now, log)
-    for i in range(len(balls)):
-        if balls[i].speed > 0.0:
-            aim_at_resting(balls, world, i, a, now)
+    offer_resting(balls, world, a, now)
 
 
 @kernel

@@ -67,6 +67,8 @@ def predict_after(balls, world, changed, count, now):
     for m in range(stale):
         if balls[changed[m]].speed > 0.0:
             predict(balls, world, changed, m, now)
+        else:
+            offer_resting(balls, world, changed[m], now)
 
 
 @kernel
@@ -130,6 +132,14 @@ def way_to_cushions(world, x, y, ux, uy, radius):
         if to_y < way:
             way, partner = to_y, CUSHION_Y0
     return max(way, 0.0), partner
+
+
+@kernel
+def offer_resting(balls, world, j, now):
+    """Tell the moving balls that ball `j` has come to rest."""
+    for i in range(len(balls)):
+        if balls[i].speed > 0.0:
+            aim_at_resting(balls, world, i, j, now)
 
 
 @kernel
