@@ -54,14 +54,12 @@ def predict_after(balls, world, changed, count, now):
     """
     stale = count
     for i in range(len(balls)):
-        if balls[i].next < np.inf and balls[i].partner >= 0:
-            bereft, is_new = False, True
-            for m in range(count):
-                bereft |= balls[i].partner == changed[m]
-                is_new &= i != changed[m]
-            if bereft and is_new:
-                changed[stale] = i
-                stale += 1
+        bereft = False
+        for m in range(count):
+            bereft |= balls[i].partner == changed[m]
+        if bereft & (balls[i].next < np.inf) and not is_among(i, changed, count):
+            changed[stale] = i
+            stale += 1
     for m in range(stale):
         balls[changed[m]].next = np.inf
     for m in range(stale):
@@ -87,11 +85,10 @@ def predict(balls, world, changed, m, now):
     way, partner = way_to_cushions(world, x, y, ux, uy, ball.radius)
     for j in range(len(balls)):
         other = balls[j]
-        if other.speed == 0.0 and j != i:
-            touch = ball.radius + other.radius
-            to_ball = way_to_resting_ball(other.x - x, other.y - y, ux, uy, touch, way)
-            if to_ball < way:
-                way, partner = to_ball, j
+        touch = ball.radius + other.radius
+        to_ball = way_to_resting_ball(other.x - x, other.y - y, ux, uy, touch, way)
+        if (to_ball < way) & (other.speed == 0.0):
+            way, partner = to_ball, j
     stopping = max(stop_time(ball, a), now)
     t = stopping
     if 2.0 * a * way < speed * speed:
