@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pool_sim_ros.physics.cells import neighbours
 from pool_sim_ros.physics.contact import (
     contact_normal,
     cushion_gap,
@@ -61,7 +62,7 @@ def new_cluster(n: int) -> Cluster:
     """
     return Cluster(
         np.zeros(7 * n, CONTACT),
-        np.zeros(n, np.int64),
+        np.zeros(n, np.int32),
         np.zeros(n, np.bool_),
         *(np.zeros(n) for _ in range(5)),
     )
@@ -102,13 +103,14 @@ def add_contact(cluster, count, a, b, nx, ny, closing):
 
 
 @kernel
-def gather(balls, world, cluster, a, b, now, slowest):
+def gather(balls, world, cells, cluster, a, b, now, slowest):
     """Collect the contacts of this instant that hang together with that of `a` and `b`.
 
     Parameters
     ----------
     balls : ndarray of BALL
     world : World
+    cells : Cells
     cluster : Cluster
         Filled.
     a, b : int
@@ -134,7 +136,8 @@ def gather(balls, world, cluster, a, b, now, slowest):
         count = gather_cushions(balls, world, cluster, count, i, a, b, now, slowest)
         xi, yi = position_at(balls[i], now, world.deceleration)
         at_rest = balls[i].speed == 0.0
-        for k in range(len(balls)):
+        for m in range(neighbours(balls, cells, i)):
+            k = cells.near[m]
             if k == i or (at_rest and balls[k].speed == 0.0 and slowest >= 0.0):
                 continue
             xk, yk = position_at(balls[k], now, world.deceleration)

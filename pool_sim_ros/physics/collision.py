@@ -1,5 +1,6 @@
 """Resolve what is due: one contact in closed form, several of one instant together."""
 
+from pool_sim_ros.physics.cells import neighbours
 from pool_sim_ros.physics.cluster import TOUCHING, gather, move_as_one, resolve
 from pool_sim_ros.physics.contact import (
     collide_balls,
@@ -8,7 +9,7 @@ from pool_sim_ros.physics.contact import (
     cushion_normal,
     restitution,
 )
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.kernel import inlined, kernel
 from pool_sim_ros.physics.motion import CUSHION_X0, CUSHION_X1, position_at, set_velocity, speed_at
 from pool_sim_ros.physics.record import BALL_BALL, CUSHION, log_event, log_segment
 
@@ -32,44 +33,37 @@ LAST_ROUND = 250
 """The same, after which the cluster moves as one: it is wedged and cannot part."""
 
 
-@kernel
-def stands_alone(balls, world, a, b, now):
+@inlined
+def stands_alone(balls, world, cells, a, b, now):
     """Return whether nothing else can collide with moving ball `a` or with `b` at this instant."""
     if rounds_at(balls, a, b, now) > MAX_ROUNDS:
         return False
-    xa, ya = position_at(balls[a], now, world.deceleration)
-    if b < 0:
-        if touches_cushion(world, xa, ya, balls[a].radius, CUSHION_X0 - b):
-            return False
-        for k in range(len(balls)):
-            if k != a and touches(balls[k], xa, ya, balls[a].radius, now, world):
-                return False
+    if is_touched(balls, world, cells, a, b, now):
+        return False
+    return b < 0 or not is_touched(balls, world, cells, b, a, now)
+
+
+@inlined
+def is_touched(balls, world, cells, i, but, now):
+    """Return whether anything but `but`, a ball or a cushion, can collide with ball `i` now."""
+    ball = balls[i]
+    moves = ball.speed > 0.0
+    x, y = position_at(ball, now, world.deceleration)
+    if moves and touches_cushion(world, x, y, ball.radius, CUSHION_X0 - but):
         return True
-    if touches_cushion(world, xa, ya, balls[a].radius, -1):
-        return False
-    xb, yb = position_at(balls[b], now, world.deceleration)
-    b_moves = balls[b].speed > 0.0
-    if b_moves and touches_cushion(world, xb, yb, balls[b].radius, -1):
-        return False
-    for k in range(len(balls)):
-        if k != a and k != b:
-            if touches(balls[k], xa, ya, balls[a].radius, now, world):
-                return False
-            if b_moves or balls[k].speed > 0.0:
-                if touches(balls[k], xb, yb, balls[b].radius, now, world):
-                    return False
-    return True
+    for m in range(neighbours(balls, cells, i)):
+        k = cells.near[m]
+        other = balls[k]
+        if moves or other.speed > 0.0:
+            xk, yk = position_at(other, now, world.deceleration)
+            near = ball.radius + other.radius + TOUCHING
+            close = (xk - x) * (xk - x) + (yk - y) * (yk - y) <= near * near
+            if close and k != i and k != but:
+                return True
+    return False
 
 
-@kernel
-def touches(ball, x, y, radius, now, world):
-    """Return whether a ball is in contact with one of `radius` at (x, y)."""
-    xk, yk = position_at(ball, now, world.deceleration)
-    near = ball.radius + radius + TOUCHING
-    return (xk - x) * (xk - x) + (yk - y) * (yk - y) <= near * near
-
-
-@kernel
+@inlined
 def touches_cushion(world, x, y, radius, but):
     """Return whether a ball at (x, y) is in contact with a cushion other than number `but`."""
     near = radius + TOUCHING
@@ -81,7 +75,7 @@ def touches_cushion(world, x, y, radius, but):
     )
 
 
-@kernel
+@inlined
 def rounds_at(balls, a, b, now):
     """Return how many contacts at this very instant the more stricken of two balls has had."""
     rounds = balls[a].rounds if balls[a].touched == now else 0
@@ -90,7 +84,7 @@ def rounds_at(balls, a, b, now):
     return rounds
 
 
-@kernel
+@inlined
 def separation_speed(balls, world, a, b, closing, now):
     """Return the speed in m/s at which the two sides of a contact are to part.
 
@@ -112,7 +106,7 @@ def separation_speed(balls, world, a, b, closing, now):
     return max(parting, min(V_MIN, V_ROUNDING * COLLAPSE_GROWTH**repeats))
 
 
-@kernel
+@inlined
 def bring_to(balls, world, i, now):
     """Begin the motion of ball `i` anew at `now`; return its velocity, m/s."""
     ball = balls[i]
@@ -122,24 +116,24 @@ def bring_to(balls, world, i, now):
     return ball.ux * speed, ball.uy * speed
 
 
-@kernel
-def leave(balls, i, velocity, now, log):
+@inlined
+def set_off(balls, i, velocity, now, log):
     """Set ball `i` off after a contact."""
     ball = balls[i]
-    ball.rounds = ball.rounds + 1 if ball.touched == now else 1
+    ball.rounds = min(ball.rounds, LAST_ROUND) + 1 if ball.touched == now else 1
     ball.touched = now
     set_velocity(ball, velocity[0], velocity[1])
     log_motion(balls, i, now, log)
 
 
-@kernel
+@inlined
 def log_motion(balls, i, now, log):
     """Write down how ball `i` moves from now on."""
     ball = balls[i]
     log_segment(log, i, now, ball.x, ball.y, ball.ux, ball.uy, ball.speed)
 
 
-@kernel
+@inlined
 def hit_ball(balls, world, a, b, now, log):
     """Resolve a contact of two balls that nothing else touches."""
     a, b = min(a, b), max(a, b)
@@ -151,11 +145,11 @@ def hit_ball(balls, world, a, b, now, log):
     inverse_a, inverse_b = balls[a].inverse_mass, balls[b].inverse_mass
     va, vb = collide_balls(world, va, vb, (nx, ny), inverse_a, inverse_b, parting)
     log_contact(balls, a, b, nx, ny, closing, now, log)
-    leave(balls, a, va, now, log)
-    leave(balls, b, vb, now, log)
+    set_off(balls, a, va, now, log)
+    set_off(balls, b, vb, now, log)
 
 
-@kernel
+@inlined
 def hit_cushion(balls, world, a, partner, now, log):
     """Resolve a contact of a ball that touches nothing but one cushion."""
     vx, vy = bring_to(balls, world, a, now)
@@ -165,18 +159,18 @@ def hit_cushion(balls, world, a, partner, now, log):
         vx, vy = collide_cushion(world, vx, vy)
     else:
         vy, vx = collide_cushion(world, vy, vx)
-    leave(balls, a, (vx, vy), now, log)
+    set_off(balls, a, (vx, vy), now, log)
 
 
 @kernel
-def gather_crowd(balls, world, cluster, a, b, now):
+def gather_crowd(balls, world, cells, cluster, a, b, now):
     """Collect the contacts to be resolved together; return their and the balls' number."""
     if rounds_at(balls, a, b, now) > MAX_ROUNDS:
-        return gather(balls, world, cluster, a, b, now, -1e300)
-    count, members = gather(balls, world, cluster, a, b, now, V_MIN)
+        return gather(balls, world, cells, cluster, a, b, now, -1e300)
+    count, members = gather(balls, world, cells, cluster, a, b, now, V_MIN)
     for c in range(count):
         if cluster.contacts[c].closing <= V_MIN:
-            return gather(balls, world, cluster, a, b, now, 0.0)
+            return gather(balls, world, cells, cluster, a, b, now, 0.0)
     return count, members
 
 
@@ -201,10 +195,10 @@ def hit_crowd(balls, world, cluster, count, members, now, log):
         log_contact(balls, one.a, one.b, one.nx, one.ny, one.closing, now, log)
     for m in range(members):
         i = cluster.members[m]
-        leave(balls, i, (cluster.vx[i], cluster.vy[i]), now, log)
+        set_off(balls, i, (cluster.vx[i], cluster.vy[i]), now, log)
 
 
-@kernel
+@inlined
 def log_contact(balls, a, b, nx, ny, closing, now, log):
     """Write a contact down."""
     ball = balls[a]

@@ -6,13 +6,13 @@ from the ball into the cushion, and the tangent is the normal turned left by a r
 
 import numpy as np
 
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.kernel import inlined
 
 NO_SLIP = 1e-10
 """Slip, as a part of the change of normal speed, that is taken for rounding of a head-on hit."""
 
 
-@kernel
+@inlined
 def sign(value):
     """Return 1, 0 or -1, as MATLAB's sign does."""
     if value > 0.0:
@@ -22,7 +22,7 @@ def sign(value):
     return 0.0
 
 
-@kernel
+@inlined
 def restitution(world, a_is_cue, b_is_cue):
     """Return the coefficient of restitution of two balls."""
     if a_is_cue or b_is_cue:
@@ -30,13 +30,13 @@ def restitution(world, a_is_cue, b_is_cue):
     return world.e_ball_ball
 
 
-@kernel
+@inlined
 def reduced_mass(inverse_a, inverse_b):
     """Return ``m_a m_b / (m_a + m_b)`` in kg from the inverses of both masses."""
     return 1.0 / (inverse_a + inverse_b)
 
 
-@kernel
+@inlined
 def coulomb_impulse(normal_impulse, slip, mass, mu):
     """Return the tangential impulse in N s on the first body, against `slip`.
 
@@ -46,7 +46,7 @@ def coulomb_impulse(normal_impulse, slip, mass, mu):
     return -sign(slip) * min(mu * normal_impulse, abs(slip) * mass)
 
 
-@kernel
+@inlined
 def report_friction(tangential, other_tangential, normal_loss, mu):
     """Return a ball's tangential velocity after a contact as Listing 3 has it.
 
@@ -60,7 +60,7 @@ def report_friction(tangential, other_tangential, normal_loss, mu):
     return after
 
 
-@kernel
+@inlined
 def rub_balls(world, va_t, vb_t, normal_impulse, inverse_a, inverse_b, share_a, share_b):
     """Return both tangential velocities after the friction of one contact.
 
@@ -80,7 +80,7 @@ def rub_balls(world, va_t, vb_t, normal_impulse, inverse_a, inverse_b, share_a, 
     )
 
 
-@kernel
+@inlined
 def rub_cushion(tangential, normal_change, mu, share):
     """Return the tangential velocity after a cushion's friction (report, Equation 9).
 
@@ -89,7 +89,7 @@ def rub_cushion(tangential, normal_change, mu, share):
     return tangential - sign(tangential) * min(mu * abs(normal_change), abs(tangential) / share)
 
 
-@kernel
+@inlined
 def collide_balls(world, va, vb, normal, inverse_a, inverse_b, separation):
     """Return both velocities after a contact of two balls that nothing else touches.
 
@@ -122,14 +122,14 @@ def collide_balls(world, va, vb, normal, inverse_a, inverse_b, separation):
     )
 
 
-@kernel
+@inlined
 def collide_cushion(world, normal_speed, tangential):
     """Return the normal and tangential velocity of a ball after a cushion (report, Equation 9)."""
     after = -world.e_ball_cushion * normal_speed
     return after, rub_cushion(tangential, after - normal_speed, world.mu_ball_cushion, 1.0)
 
 
-@kernel
+@inlined
 def cushion_normal(cushion):
     """Return the unit vector into a cushion, by its number: x = 0, x = length, y = 0, y = width."""
     if cushion == 0:
@@ -141,7 +141,7 @@ def cushion_normal(cushion):
     return 0.0, 1.0
 
 
-@kernel
+@inlined
 def cushion_gap(world, x, y, radius, cushion):
     """Return the gap in m between a ball and a cushion."""
     if cushion == 0:
@@ -153,7 +153,7 @@ def cushion_gap(world, x, y, radius, cushion):
     return world.width - radius - y
 
 
-@kernel
+@inlined
 def contact_normal(dx, dy):
     """Return the unit vector along (dx, dy)."""
     inverse = 1.0 / np.sqrt(dx * dx + dy * dy)

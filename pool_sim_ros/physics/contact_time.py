@@ -6,13 +6,13 @@ that touches or overlaps and approaches meets now, one that separates does not.
 
 import numpy as np
 
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.kernel import inlined
 
 MAX_STEPS = 200
 """Far beyond what quadratic convergence needs; a graze, where it is linear, takes about 50."""
 
 
-@kernel
+@inlined
 def time_to_cover(way, speed, deceleration):
     """Return the time in s to roll `way` m, which must be within reach.
 
@@ -21,7 +21,7 @@ def time_to_cover(way, speed, deceleration):
     return 2.0 * way / (speed + np.sqrt(max(speed * speed - 2.0 * deceleration * way, 0.0)))
 
 
-@kernel
+@inlined
 def way_to_resting_ball(dx, dy, ux, uy, touch, reach):
     """Return the way in m along (ux, uy) to a ball at rest at (dx, dy); inf for a miss.
 
@@ -31,13 +31,13 @@ def way_to_resting_ball(dx, dy, ux, uy, touch, reach):
     along = dx * ux + dy * uy
     aside = dx * uy - dy * ux
     half_chord_squared = touch * touch - aside * aside
-    # One test: where most balls are out of the way, three would each be guessed wrong half the time.
+    # One test, nearly always false: each of the three would be guessed wrong half the time.
     if (along > 0.0) & (along - touch < reach) & (half_chord_squared > 0.0):
         return max(along - np.sqrt(half_chord_squared), 0.0)
     return np.inf
 
 
-@kernel
+@inlined
 def first_root(gap, closing, opening):
     """Return the smallest root >= 0 of ``gap - closing t + opening t^2 / 2``; inf for none.
 
@@ -56,7 +56,7 @@ def first_root(gap, closing, opening):
     return (closing - root) / opening
 
 
-@kernel
+@inlined
 def passes_by(dx, dy, wx, wy, gx, gy, touch, horizon):
     """Return whether two balls stay too far apart sideways to touch before `horizon`.
 
@@ -70,7 +70,7 @@ def passes_by(dx, dy, wx, wy, gx, gy, touch, horizon):
     return before * after > 0.0 and least * least > margin * (1.0 + 1e-9)
 
 
-@kernel
+@inlined
 def time_to_moving_ball(dx, dy, wx, wy, gx, gy, touch, horizon):
     """Return the time in s until two moving balls touch; inf if not before `horizon`.
 

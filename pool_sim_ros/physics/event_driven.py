@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from pool_sim_ros.physics.cells import Cells, fill, new_cells
 from pool_sim_ros.physics.cluster import new_cluster
 from pool_sim_ros.physics.collision import (
     gather_crowd,
@@ -13,10 +14,17 @@ from pool_sim_ros.physics.collision import (
     log_motion,
     stands_alone,
 )
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.kernel import inlined, kernel
 from pool_sim_ros.physics.motion import STOP, position_at, set_velocity, speed_at
-from pool_sim_ros.physics.prediction import earliest, offer_resting, predict_after, predict_all
+from pool_sim_ros.physics.prediction import (
+    cross,
+    lay_down,
+    predict,
+    predict_after,
+    predict_all,
+)
 from pool_sim_ros.physics.record import STOPPED, enlarged, has_room, log_event, new_log
+from pool_sim_ros.physics.schedule import new_schedule
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
 
@@ -26,12 +34,13 @@ FIRST_ROOM = 64
 
 def play(table: Table, at_rest: np.ndarray, velocities: np.ndarray, until: float) -> Trajectory:
     """Play one shot; see `simulate`, which checks what it is given."""
-    balls = at_rest.copy()
+    balls, cells = laid_out(table, at_rest)
     n = len(balls)
+    schedule = new_schedule(n)
     log = new_log(FIRST_ROOM, FIRST_ROOM + n)
     cluster = new_cluster(n)
-    start(balls, table.world, velocities, cluster.members, log)
-    while not run(balls, table.world, until, cluster, log):
+    start(balls, table.world, cells, schedule, velocities, log)
+    while not run(balls, table.world, cells, schedule, cluster, until, log):
         log = enlarged(log)
     ends = np.empty((2, n, 2))
     duration, complete = finish(balls, table.world, until, ends[0], ends[1])
@@ -57,82 +66,116 @@ def play_many(
     counts: np.ndarray,
 ) -> None:
     """Play shots and fill in their ends; see `simulate_many`."""
+    balls, cells = laid_out(table, at_rest)
+    n = len(balls)
+    start_layout = balls, cells.first, new_schedule(n)
+    work = balls.copy(), cells._replace(first=cells.first.copy()), new_schedule(n), new_cluster(n)
     log = new_log(0, 0, wanted=False)
-    cluster = new_cluster(len(at_rest))
-    run_many(at_rest, table.world, velocities, until, cluster, log, finals, durations, counts)
+    ends = finals, np.empty((n, 2)), durations, counts
+    run_many(start_layout, work, table.world, velocities, until, log, ends)
+
+
+def laid_out(table: Table, at_rest: np.ndarray) -> tuple[np.ndarray, Cells]:
+    """Return a copy of the balls, and the cells in which they lie."""
+    balls = at_rest.copy()
+    cells = new_cells(table.length, table.width, table.radii)
+    fill(balls, cells)
+    return balls, cells
 
 
 @kernel
-def run_many(at_rest, world, velocities, until, cluster, log, finals, durations, counts):
+def run_many(start_layout, work, world, velocities, until, log, ends):
     """Play shots one after another from the same layout."""
-    balls = at_rest.copy()
-    unused = np.empty((len(balls), 2))
+    balls, cells, schedule, cluster = work
+    finals, final_velocities, durations, counts = ends
     for shot in range(len(velocities)):
-        balls[:] = at_rest
+        lay_out(start_layout, balls, cells, schedule)
         log.counts[0] = 0
-        start(balls, world, velocities[shot], cluster.members, log)
-        run(balls, world, until, cluster, log)
-        durations[shot], _ = finish(balls, world, until, finals[shot], unused)
+        start(balls, world, cells, schedule, velocities[shot], log)
+        run(balls, world, cells, schedule, cluster, until, log)
+        durations[shot], _ = finish(balls, world, until, finals[shot], final_velocities)
         counts[shot] = log.counts[0]
 
 
-@kernel
-def start(balls, world, velocities, everyone, log):
-    """Give the first balls their velocities, (n or 1, 2) in m/s, and find all next events.
+@inlined
+def lay_out(start_layout, balls, cells, schedule):
+    """Put everything back to the start."""
+    balls_at_start, first_at_start, nothing_due = start_layout
+    for i in range(len(balls)):
+        balls[i] = balls_at_start[i]
+    for k in range(len(schedule)):
+        schedule[k] = nothing_due[k]
+    rows, columns = cells.first.shape
+    for row in range(rows):
+        for column in range(columns):
+            cells.first[row, column] = first_at_start[row, column]
 
-    `everyone` is room for the numbers of all balls.
-    """
+
+@kernel
+def start(balls, world, cells, schedule, velocities, log):
+    """Give the first balls their velocities, (n or 1, 2) in m/s, and find all next events."""
     for i in range(len(velocities)):
         set_velocity(balls[i], velocities[i, 0], velocities[i, 1])
     for i in range(len(balls)):
         log_motion(balls, i, 0.0, log)
-    predict_all(balls, world, everyone, 0.0)
+    predict_all(balls, world, cells, schedule, 0.0)
 
 
 @kernel
-def run(balls, world, until, cluster, log):
+def run(balls, world, cells, schedule, cluster, until, log):
     """Play all events up to `until`; return False where the log must be enlarged first."""
-    changed = cluster.members
     while True:
-        a = earliest(balls)
-        now = balls[a].next
+        now, a = schedule[1].t, schedule[1].ball
         if not now <= until or now == np.inf:
             return True
-        b = balls[a].partner
-        if b == STOP:
-            if not has_room(log, 1, 1):
-                return False
-            stop(balls, world, a, now, log)
-            continue
-        contacts, members = 1, 2 if b >= 0 else 1
-        if not stands_alone(balls, world, a, b, now):
-            contacts, members = gather_crowd(balls, world, cluster, a, b, now)
+        ball = balls[a]
+        b = ball.partner
+        if ball.crossing < ball.contact:
+            cross(balls, world, cells, schedule, a, now)
+        elif b >= 0 and balls[b].changes != ball.partner_changes:
+            ball.contact = np.inf
+            predict(balls, world, cells, schedule, cluster.members, 0, a, now)
+        elif not has_room(log, 1, 2):
+            return False
+        elif b == STOP:
+            stop(balls, world, cells, schedule, a, now, log)
+        elif not collide(balls, world, cells, schedule, cluster, a, b, now, log):
+            return False
+
+
+@inlined
+def collide(balls, world, cells, schedule, cluster, a, b, now, log):
+    """Resolve the contact of ball `a` with `b` that is due; return False where the log is full."""
+    contacts, members = 1, 2 if b >= 0 else 1
+    if not stands_alone(balls, world, cells, a, b, now):
+        contacts, members = gather_crowd(balls, world, cells, cluster, a, b, now)
         if not has_room(log, contacts, members):
             return False
-        if contacts > 1:
-            hit_crowd(balls, world, cluster, contacts, members, now, log)
-        elif b >= 0:
-            hit_ball(balls, world, a, b, now, log)
-            changed[0], changed[1] = a, b
-        else:
-            hit_cushion(balls, world, a, b, now, log)
-            changed[0] = a
-        predict_after(balls, world, changed, members, now)
+    changed = cluster.members
+    if contacts > 1:
+        hit_crowd(balls, world, cluster, contacts, members, now, log)
+    elif b >= 0:
+        hit_ball(balls, world, a, b, now, log)
+        changed[0], changed[1] = a, b
+    else:
+        hit_cushion(balls, world, a, b, now, log)
+        changed[0] = a
+    predict_after(balls, world, cells, schedule, changed, members, now)
+    return True
 
 
-@kernel
-def stop(balls, world, a, now, log):
+@inlined
+def stop(balls, world, cells, schedule, a, now, log):
     """Bring a ball to rest where its motion ends."""
     ball = balls[a]
     way = 0.5 * ball.speed * ball.speed / world.deceleration
     ball.x += ball.ux * way
     ball.y += ball.uy * way
-    ball.ux, ball.uy, ball.speed = 0.0, 0.0, 0.0
     ball.since = now
-    ball.next = np.inf
+    set_velocity(ball, 0.0, 0.0)
     log_event(log, now, STOPPED, a, -1, ball.x, ball.y, 0.0, 0.0, 0.0)
     log_motion(balls, a, now, log)
-    offer_resting(balls, world, a, now)
+    lay_down(balls, world, cells, schedule, a, now)
 
 
 @kernel

@@ -2,8 +2,16 @@
 
 from numba import njit
 
-kernel = njit(cache=True, error_model='numpy', nogil=True)
-"""Compile once and keep it; divide as numpy does; let other threads run meanwhile.
+OPTIONS = {'cache': True, 'error_model': 'numpy', 'nogil': True, '_nrt': False}
+"""Keep what was compiled; divide as numpy does; let other threads run meanwhile. Never `fastmath`:
+results are promised bit for bit.
 
-Never `fastmath`: results are promised bit for bit.
+Kernels allocate nothing and keep no arrays, so numba's reference counts, which cost the event loop
+half its time, are switched off; an allocation in a kernel does not compile.
 """
+
+kernel = njit(**OPTIONS)
+"""Compile a function that Python calls, or that is long or rarely called."""
+
+inlined = njit(**OPTIONS, forceinline=True)
+"""Compile a function into those that call it: passing arrays to it would cost more than it does."""

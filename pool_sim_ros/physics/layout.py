@@ -35,7 +35,8 @@ def check_layout(
     name : str
         What the positions are called in the message.
     """
-    i, j = first_fault(positions, radii, length, width)
+    order = np.argsort(positions[:, 0])
+    i, j = first_fault(positions, radii, length, width, order)
     if i >= 0:
         fault = describe_fault(positions, radii, length, width, labels, i, j)
         raise ValueError(f'{name}: {fault}')
@@ -56,10 +57,10 @@ def describe_fault(positions, radii, length, width, labels, i, j) -> str:
 
 
 @kernel
-def first_fault(positions, radii, length, width):
+def first_fault(positions, radii, length, width, order):
     """Return (i, -1) for a ball outside, (i, j) for two that overlap, (-1, -1) for none.
 
-    Sweeps along x, so that a large table costs little more than a sort.
+    Sweeps along x, in which `order` sorts the balls, so that a large table costs little.
     """
     n = len(positions)
     widest = 0.0
@@ -70,7 +71,6 @@ def first_fault(positions, radii, length, width):
         if not (inside_x and inside_y):
             return i, -1
         widest = max(widest, r)
-    order = np.argsort(positions[:, 0])
     for k in range(n):
         i = order[k]
         for m in range(k + 1, n):

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.kernel import inlined
 
 BALL = np.dtype(
     [
@@ -18,19 +18,25 @@ BALL = np.dtype(
         ('uy', 'f8'),
         ('speed', 'f8'),  # at `since`, m/s; zero at rest
         ('since', 'f8'),  # when this motion began, s
-        ('next', 'f8'),  # when this ball's next event is due, s; inf for none
-        ('touched', 'f8'),  # when it last was in a contact, s
         ('radius', 'f8'),
-        ('mass', 'f8'),
+        ('contact', 'f8'),  # when its next contact or stop is due, s; inf for none
+        ('crossing', 'f8'),  # when it leaves its cell, s; inf for never
         ('inverse_mass', 'f8'),
-        ('partner', 'i8'),  # what it meets then: a ball, or a cushion or STOP as below
-        ('repeats', 'i8'),  # weak contacts in quick succession, up to now
-        ('rounds', 'i8'),  # contacts at the very instant `touched`
-        ('is_cue', 'i8'),
+        ('touched', 'f8'),  # when it last was in a contact, s
+        ('partner', 'i4'),  # what it meets at `contact`: a ball, or a cushion or STOP as below
+        ('partner_changes', 'i4'),  # the partner's `changes` when this was found
+        ('changes', 'i4'),  # how often its motion has changed
+        ('cell_x', 'i4'),
+        ('cell_y', 'i4'),
+        ('after', 'i4'),  # the next ball in its cell; -1 for none
+        ('before', 'i4'),  # the one before
+        ('repeats', 'i2'),  # weak contacts in quick succession, up to now
+        ('rounds', 'i2'),  # contacts at the very instant `touched`
+        ('is_cue', 'i4'),
     ],
     align=True,
 )
-"""The state of one ball in the event-driven engine."""
+"""The state of one ball in the event-driven engine: two cache lines."""
 
 STOP = -1
 CUSHION_X0, CUSHION_X1, CUSHION_Y0, CUSHION_Y1 = -2, -3, -4, -5
@@ -50,7 +56,7 @@ class World(NamedTuple):
     coulomb: bool
 
 
-@kernel
+@inlined
 def position_at(ball, t, deceleration):
     """Return (x, y) in m of a ball whose motion lasts until `t` at least."""
     if ball.speed == 0.0:
@@ -60,19 +66,19 @@ def position_at(ball, t, deceleration):
     return ball.x + ball.ux * way, ball.y + ball.uy * way
 
 
-@kernel
+@inlined
 def speed_at(ball, t, deceleration):
     """Return the speed in m/s at `t`, zero from the stop on."""
     return max(ball.speed - deceleration * (t - ball.since), 0.0)
 
 
-@kernel
+@inlined
 def stop_time(ball, deceleration):
     """Return when a moving ball comes to rest if nothing is in its way, s."""
     return ball.since + ball.speed / deceleration
 
 
-@kernel
+@inlined
 def set_velocity(ball, vx, vy):
     """Set off at (vx, vy) in m/s from where the ball is."""
     speed = np.sqrt(vx * vx + vy * vy)
@@ -81,3 +87,4 @@ def set_velocity(ball, vx, vy):
     else:
         inverse = 1.0 / speed
         ball.ux, ball.uy, ball.speed = vx * inverse, vy * inverse, speed
+    ball.changes += 1

@@ -1,17 +1,19 @@
 """What happens next: every moving ball keeps its own next event, and there is no table of pairs.
 
-When a ball's motion changes, its next event is found anew, and that of every ball that was about
-to meet it.
+When a ball's motion changes, its next event is found anew, and each ball that it will now meet
+before anything else is told. A ball that was about to meet it learns of the change when that
+contact falls due: nothing can have come before.
 """
 
 import numpy as np
 
+from pool_sim_ros.physics.cells import move_on, neighbours, ways_out
 from pool_sim_ros.physics.contact_time import (
     time_to_cover,
     time_to_moving_ball,
     way_to_resting_ball,
 )
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.kernel import inlined, kernel
 from pool_sim_ros.physics.motion import (
     CUSHION_X0,
     CUSHION_X1,
@@ -22,151 +24,156 @@ from pool_sim_ros.physics.motion import (
     speed_at,
     stop_time,
 )
+from pool_sim_ros.physics.schedule import put_down
 
 
 @kernel
-def earliest(balls):
-    """Return the ball whose next event is due first."""
-    first, t = 0, balls[0].next
-    for i in range(1, len(balls)):
-        if balls[i].next < t:
-            first, t = i, balls[i].next
-    return first
-
-
-@kernel
-def predict_all(balls, world, everyone, now):
-    """Find the next event of every ball; `everyone` is room for all their numbers."""
-    n = len(balls)
-    for i in range(n):
-        everyone[i] = i
-        balls[i].next = np.inf
-    for m in range(n):
-        if balls[m].speed > 0.0:
-            predict(balls, world, everyone, m, now)
-
-
-@kernel
-def predict_after(balls, world, changed, count, now):
-    """Find anew the next events of the balls in a collision and of those that were to meet them.
-
-    `changed` has room for all balls; its first `count` are those of the collision.
-    """
-    stale = count
+def predict_all(balls, world, cells, schedule, now):
+    """Find the next event of every ball."""
     for i in range(len(balls)):
-        bereft = False
-        for m in range(count):
-            bereft |= balls[i].partner == changed[m]
-        if bereft & (balls[i].next < np.inf) and not is_among(i, changed, count):
-            changed[stale] = i
-            stale += 1
-    for m in range(stale):
-        balls[changed[m]].next = np.inf
-    for m in range(stale):
+        if balls[i].speed > 0.0:
+            predict(balls, world, cells, schedule, cells.near, 0, i, now)
+
+
+@inlined
+def predict_after(balls, world, cells, schedule, changed, count, now):
+    """Find the next events of the `count` balls in `changed`, whose motion is new at `now`."""
+    for m in range(count):
+        balls[changed[m]].contact = np.inf
+    for m in range(count):
         if balls[changed[m]].speed > 0.0:
-            predict(balls, world, changed, m, now)
+            predict(balls, world, cells, schedule, changed, m, changed[m], now)
         else:
-            offer_resting(balls, world, changed[m], now)
+            lay_down(balls, world, cells, schedule, changed[m], now)
 
 
 @kernel
-def predict(balls, world, changed, m, now):
-    """Find the next event of moving ball ``changed[m]``, and tell those it meets before theirs.
+def predict(balls, world, cells, schedule, done, n_done, i, now):
+    """Find the next event of moving ball `i`, and tell those that it meets before theirs.
 
-    What rests is compared by the way to it, so that only one time has to be computed. The balls
-    before it in `changed` have looked at this pair already.
+    The first `n_done` balls of `done` have looked at their pair with this one already.
     """
-    i = changed[m]
     ball = balls[i]
     a = world.deceleration
     x, y = position_at(ball, now, a)
-    ux, uy = ball.ux, ball.uy
     speed = speed_at(ball, now, a)
-    way, partner = way_to_cushions(world, x, y, ux, uy, ball.radius)
-    for j in range(len(balls)):
-        other = balls[j]
-        touch = ball.radius + other.radius
-        to_ball = way_to_resting_ball(other.x - x, other.y - y, ux, uy, touch, way)
-        if (to_ball < way) & (other.speed == 0.0):
-            way, partner = to_ball, j
-    stopping = max(stop_time(ball, a), now)
-    t = stopping
+    way, partner = way_to_cushions(world, ball, x, y)
+    t = max(stop_time(ball, a), now)
     if 2.0 * a * way < speed * speed:
-        t = min(now + time_to_cover(way, speed, a), stopping)
+        t = min(now + time_to_cover(way, speed, a), t)
     else:
         partner = STOP
-    if t < ball.next:
-        ball.next = t
+    if t < ball.contact:
+        ball.contact = t
         ball.partner = partner
-    for j in range(len(balls)):
-        if balls[j].speed > 0.0 and j != i and not is_among(j, changed, m):
-            aim_at_moving(balls, world, i, j, x, y, speed, now, stopping)
+    count = neighbours(balls, cells, i)
+    meet(balls, world, cells, schedule, count, done, n_done, i, x, y, speed, now)
+    plan(balls, world, cells, schedule, i, x, y, speed, now)
 
 
 @kernel
-def is_among(j, changed, count):
-    """Return whether ball `j` is one of the first `count` of `changed`."""
-    for m in range(count):
-        if changed[m] == j:
-            return True
-    return False
+def cross(balls, world, cells, schedule, i, now):
+    """Let ball `i` go on into the next cell, and look at what is new there."""
+    ball = balls[i]
+    x, y = position_at(ball, now, world.deceleration)
+    speed = speed_at(ball, now, world.deceleration)
+    count = move_on(balls, cells, i, x, y)
+    meet(balls, world, cells, schedule, count, cells.near, 0, i, x, y, speed, now)
+    plan(balls, world, cells, schedule, i, x, y, speed, now)
 
 
-@kernel
-def way_to_cushions(world, x, y, ux, uy, radius):
-    """Return the way in m along (ux, uy) to the first cushion, and which that is."""
+@inlined
+def plan(balls, world, cells, schedule, i, x, y, speed, now):
+    """Find when ball `i`, at (x, y) with `speed`, leaves its cell; put down what is first."""
+    ball = balls[i]
+    ball.crossing = np.inf
+    to_x, to_y = ways_out(cells, ball, x, y)
+    way = max(min(to_x, to_y), 0.0)
+    if 2.0 * world.deceleration * way < speed * speed and way < np.inf:
+        ball.crossing = now + time_to_cover(way, speed, world.deceleration)
+    put_down(schedule, i, min(ball.contact, ball.crossing))
+
+
+@inlined
+def way_to_cushions(world, ball, x, y):
+    """Return the way in m of a ball, now at (x, y), to the first cushion, and which that is."""
     way, partner = np.inf, STOP
-    if ux > 0.0:
-        way, partner = (world.length - radius - x) / ux, CUSHION_X1
-    elif ux < 0.0:
-        way, partner = (radius - x) / ux, CUSHION_X0
-    if uy > 0.0:
-        to_y = (world.width - radius - y) / uy
+    if ball.ux > 0.0:
+        way, partner = (world.length - ball.radius - x) / ball.ux, CUSHION_X1
+    elif ball.ux < 0.0:
+        way, partner = (ball.radius - x) / ball.ux, CUSHION_X0
+    if ball.uy > 0.0:
+        to_y = (world.width - ball.radius - y) / ball.uy
         if to_y < way:
             way, partner = to_y, CUSHION_Y1
-    elif uy < 0.0:
-        to_y = (radius - y) / uy
+    elif ball.uy < 0.0:
+        to_y = (ball.radius - y) / ball.uy
         if to_y < way:
             way, partner = to_y, CUSHION_Y0
     return max(way, 0.0), partner
 
 
-@kernel
-def offer_resting(balls, world, j, now):
-    """Tell the moving balls that ball `j` has come to rest."""
-    for i in range(len(balls)):
-        if balls[i].speed > 0.0:
-            aim_at_resting(balls, world, i, j, now)
+@inlined
+def meet(balls, world, cells, schedule, count, done, n_done, i, x, y, speed, now):
+    """Let ball `i`, at (x, y) with `speed`, meet the first of the `count` balls that are near.
 
-
-@kernel
-def aim_at_resting(balls, world, i, j, now):
-    """Let moving ball `i` meet ball `j`, which has come to rest, if it gets there in time."""
-    ball, other = balls[i], balls[j]
+    What rests is compared by the way to it, so that only one time has to be computed.
+    """
+    ball = balls[i]
     a = world.deceleration
-    x, y = position_at(ball, now, a)
-    speed = speed_at(ball, now, a)
-    reach = np.inf if a == 0.0 else 0.5 * speed * speed / a
-    touch = ball.radius + other.radius
-    way = way_to_resting_ball(other.x - x, other.y - y, ball.ux, ball.uy, touch, reach)
-    if way < reach:
-        t = now + time_to_cover(way, speed, a)
-        if t < ball.next:
-            ball.next = t
-            ball.partner = j
+    lasts = ball.contact - now
+    reach = lasts * (speed - 0.5 * a * lasts) if lasts < np.inf else np.inf
+    way, partner = reach, STOP
+    n_moving = 0
+    for m in range(count):
+        j = cells.near[m]
+        other = balls[j]
+        cells.moving[n_moving] = j
+        n_moving += other.speed > 0.0
+        touch = ball.radius + other.radius
+        to_ball = way_to_resting_ball(other.x - x, other.y - y, ball.ux, ball.uy, touch, way)
+        if (to_ball < way) & (other.speed == 0.0):
+            way, partner = to_ball, j
+    if partner >= 0:
+        book(balls, i, partner, now + time_to_cover(way, speed, a))
+    for m in range(n_moving):
+        j = cells.moving[m]
+        if j != i and not is_among(j, done, n_done):
+            meet_moving(balls, world, schedule, i, j, x, y, speed, now)
 
 
-@kernel
-def aim_at_moving(balls, world, i, j, x, y, speed, now, stopping):
+@inlined
+def is_among(j, some, count):
+    """Return whether ball `j` is one of the first `count` of `some`."""
+    for m in range(count):
+        if some[m] == j:
+            return True
+    return False
+
+
+@inlined
+def book(balls, i, j, t):
+    """Let ball `i` meet ball `j` at `t`, if it has nothing before; return whether it does."""
+    ball = balls[i]
+    if t < ball.contact:
+        ball.contact = t
+        ball.partner = j
+        ball.partner_changes = balls[j].changes
+        return True
+    return False
+
+
+@inlined
+def meet_moving(balls, world, schedule, i, j, x, y, speed, now):
     """Let balls `i` and `j`, both moving, meet if that comes before what either has next.
 
-    (x, y) and `speed` are those of `i` at `now`, `stopping` is when it comes to rest.
+    (x, y) and `speed` are those of `i` at `now`.
     """
     ball, other = balls[i], balls[j]
     a = world.deceleration
     xj, yj = position_at(other, now, a)
     speed_j = speed_at(other, now, a)
-    horizon = min(ball.next, other.next, stopping, stop_time(other, a)) - now
+    ends = min(stop_time(ball, a), stop_time(other, a))
     t = now + time_to_moving_ball(
         xj - x,
         yj - y,
@@ -175,10 +182,29 @@ def aim_at_moving(balls, world, i, j, x, y, speed, now, stopping):
         a * (ball.ux - other.ux),
         a * (ball.uy - other.uy),
         ball.radius + other.radius,
-        horizon,
+        min(ball.contact, other.contact, ends) - now,
     )
-    if t < ball.next:
-        ball.next = t
-        ball.partner = j
-        other.next = t
-        other.partner = i
+    if t < other.contact and book(balls, i, j, t):
+        book(balls, j, i, t)
+        put_down(schedule, j, min(t, other.crossing))
+
+
+@inlined
+def lay_down(balls, world, cells, schedule, j, now):
+    """Take ball `j`, which has come to rest, out of the schedule; tell the moving balls near it."""
+    other = balls[j]
+    a = world.deceleration
+    other.contact = other.crossing = np.inf
+    put_down(schedule, j, np.inf)
+    for m in range(neighbours(balls, cells, j)):
+        i = cells.near[m]
+        ball = balls[i]
+        if ball.speed == 0.0:
+            continue
+        x, y = position_at(ball, now, a)
+        speed = speed_at(ball, now, a)
+        reach = np.inf if a == 0.0 else 0.5 * speed * speed / a
+        touch = ball.radius + other.radius
+        way = way_to_resting_ball(other.x - x, other.y - y, ball.ux, ball.uy, touch, reach)
+        if way < reach and book(balls, i, j, now + time_to_cover(way, speed, a)):
+            put_down(schedule, i, min(ball.contact, ball.crossing))

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.kernel import inlined
 
 BALL_BALL, CUSHION, STOPPED = 0, 1, 2
 """Values of `kind` in an event."""
@@ -65,7 +65,7 @@ def enlarged(log: Log) -> Log:
     )
 
 
-@kernel
+@inlined
 def has_room(log, events, segments):
     """Return whether so many more events and segments fit."""
     return not log.wanted or (
@@ -73,7 +73,7 @@ def has_room(log, events, segments):
     )
 
 
-@kernel
+@inlined
 def log_event(log, t, kind, a, b, x, y, nx, ny, speed):
     """Append one event; without `wanted`, only count it."""
     if log.wanted:
@@ -90,7 +90,7 @@ def log_event(log, t, kind, a, b, x, y, nx, ny, speed):
     log.counts[0] += 1
 
 
-@kernel
+@inlined
 def log_segment(log, ball, t, x, y, ux, uy, speed):
     """Append the motion that `ball` begins at `t`."""
     if log.wanted:

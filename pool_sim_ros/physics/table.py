@@ -172,10 +172,10 @@ class Table:
         """The kernels' records of the balls where they start, (n,) of `BALL`; read-only."""
         records = np.zeros(len(self.balls), BALL)
         records['x'], records['y'] = self.positions.T
-        records['radius'] = self.radii
-        records['mass'], records['inverse_mass'] = self.masses, 1.0 / self.masses
+        records['radius'], records['inverse_mass'] = self.radii, 1.0 / self.masses
         records['is_cue'] = self.is_cue
-        records['next'], records['touched'] = np.inf, -np.inf
+        records['contact'] = records['crossing'] = np.inf
+        records['touched'] = -np.inf
         records.flags.writeable = False
         return records
 

@@ -43,6 +43,7 @@ class Slices(NamedTuple):
 
     x: np.ndarray  # (n, 2), m
     v: np.ndarray  # (n, 2), m/s
+    mass: np.ndarray  # (n,), kg
     colliding: np.ndarray  # by pair: in contact, and resolved
     due: np.ndarray  # by pair: the slice in which it could touch at the earliest
     moving: np.ndarray  # by ball: at the start of this slice
@@ -55,7 +56,7 @@ def play(
 ) -> Trajectory:
     """Play one shot in slices of `step` s; see `simulate`, which checks what it is given."""
     n = len(at_rest)
-    state = new_state(at_rest, velocities)
+    state = new_state(table, at_rest, velocities)
     loss = step * table.mu_ball_surface * table.gravity
     last = last_slice(until, step)
     log = new_log(FIRST_ROOM + most_events(n), FIRST_ROOM + 2 * n)
@@ -83,7 +84,7 @@ def play_many(
     """Play shots and fill in their ends; see `simulate_many`."""
     loss = step * table.mu_ball_surface * table.gravity
     for shot in range(len(velocities)):
-        state = new_state(at_rest, velocities[shot])
+        state = new_state(table, at_rest, velocities[shot])
         log = new_log(0, 0, wanted=False)
         run(state, at_rest, table.world, step, loss, last_slice(until, step), log)
         finals[shot] = state.x
@@ -102,7 +103,7 @@ def most_events(n):
     return n + 4 * n + n * (n - 1) // 2
 
 
-def new_state(at_rest: np.ndarray, velocities: np.ndarray) -> Slices:
+def new_state(table: Table, at_rest: np.ndarray, velocities: np.ndarray) -> Slices:
     """Return the loop before its first slice, in which every ball and every pair is looked at."""
     n = len(at_rest)
     pairs = n * (n - 1) // 2
@@ -111,6 +112,7 @@ def new_state(at_rest: np.ndarray, velocities: np.ndarray) -> Slices:
     return Slices(
         x=np.column_stack([at_rest['x'], at_rest['y']]),
         v=v,
+        mass=table.masses,
         colliding=np.zeros(pairs, np.bool_),
         due=np.ones(pairs, np.int64),
         moving=np.ones(n, np.bool_),
@@ -126,7 +128,7 @@ def run(state, balls, world, step, loss, last, log):
     `step` is the slice in s, `loss` the speed that a ball loses in it, m/s.
     """
     n = len(balls)
-    while state.clock[0] < last and state.v.any():
+    while state.clock[0] < last and anything_moves(state):
         if not has_room(log, most_events(n), n):
             return False
         state.clock[0] += 1
@@ -149,6 +151,15 @@ def run(state, balls, world, step, loss, last, log):
                 log_motion(state, i, now, log)
             state.moving[i] = state.v[i, 0] != 0.0 or state.v[i, 1] != 0.0
     return True
+
+
+@kernel
+def anything_moves(state):
+    """Return whether any ball has a velocity."""
+    for i in range(len(state.v)):
+        if state.v[i, 0] != 0.0 or state.v[i, 1] != 0.0:
+            return True
+    return False
 
 
 @kernel
@@ -213,7 +224,9 @@ def meet_balls(state, balls, world, step, now, log):
                 collide(state, balls, world, a, b, now, log)
                 look_at_next_slice(state, a)
                 look_at_next_slice(state, b)
-    state.clock[1] = state.due.min() if len(state.due) > 0 else NEVER
+    state.clock[1] = NEVER
+    for pair in range(len(state.due)):
+        state.clock[1] = min(state.clock[1], state.due[pair])
 
 
 @kernel
@@ -244,7 +257,7 @@ def look_at_next_slice(state, i):
 def collide(state, balls, world, a, b, now, log):
     """Resolve the contact of two balls (lines 114 to 142)."""
     e = restitution(world, balls[a].is_cue, balls[b].is_cue)
-    mass_a, mass_b = balls[a].mass, balls[b].mass
+    mass_a, mass_b = state.mass[a], state.mass[b]
     angle = math.atan2(state.x[b, 1] - state.x[a, 1], state.x[b, 0] - state.x[a, 0])
     cos, sin = math.cos(angle), math.sin(angle)
     a_n, a_t = state.v[a, 0] * cos + state.v[a, 1] * sin, state.v[a, 0] * -sin + state.v[a, 1] * cos

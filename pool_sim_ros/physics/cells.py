@@ -1,0 +1,145 @@
+"""Which balls are near: the table is divided into cells, none narrower than a ball.
+
+Two balls can touch only where their cells are the same or neighbours, corners included. A table
+with few balls is one cell: looking at all of them is faster than keeping track.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pool_sim_ros.physics.kernel import inlined, kernel
+
+FEW = 40
+"""Balls up to which the table is one cell; cells pay from about here."""
+
+SPARE = 1e-6
+"""What a cell is wider than the widest ball, as a part of it: far above rounding."""
+
+CELLS_PER_BALL = 1.7
+"""Cells per ball, where the balls are small enough."""
+
+
+class Cells(NamedTuple):
+    """The grid, and the first ball of each cell; `BALL` has the next ones."""
+
+    first: np.ndarray  # (rows, columns), -1 for an empty cell
+    near: np.ndarray  # room for the numbers of all balls; holds them where there is but one cell
+    moving: np.ndarray  # the same for those that move
+    width: float  # m
+    height: float  # m
+
+
+def new_cells(length: float, width: float, radii: np.ndarray) -> Cells:
+    """Return an empty grid for a table of `length` x `width` m."""
+    columns = rows = 1
+    n = len(radii)
+    if n > FEW:
+        widest = 2.0 * radii.max() * (1.0 + SPARE)
+        side = max(widest, np.sqrt(length * width / (n * CELLS_PER_BALL)))
+        columns, rows = max(int(length / side), 1), max(int(width / side), 1)
+    first = np.full((rows, columns), -1, np.int32)
+    near = np.arange(n, dtype=np.int32)
+    return Cells(first, near, np.empty_like(near), length / columns, width / rows)
+
+
+@kernel
+def fill(balls, cells):
+    """Put every ball into the cell in which it lies."""
+    rows, columns = cells.first.shape
+    for i in range(len(balls)):
+        ball = balls[i]
+        ball.cell_x = min(max(int(ball.x / cells.width), 0), columns - 1)
+        ball.cell_y = min(max(int(ball.y / cells.height), 0), rows - 1)
+        enter(balls, cells, i)
+
+
+@inlined
+def enter(balls, cells, i):
+    """Make ball `i` the first of the cell whose numbers it has."""
+    ball = balls[i]
+    first = cells.first[ball.cell_y, ball.cell_x]
+    ball.after = first
+    ball.before = -1
+    if first >= 0:
+        balls[first].before = i
+    cells.first[ball.cell_y, ball.cell_x] = i
+
+
+@inlined
+def leave(balls, cells, i):
+    """Take ball `i` out of its cell."""
+    ball = balls[i]
+    if ball.before >= 0:
+        balls[ball.before].after = ball.after
+    else:
+        cells.first[ball.cell_y, ball.cell_x] = ball.after
+    if ball.after >= 0:
+        balls[ball.after].before = ball.before
+
+
+@inlined
+def neighbours(balls, cells, i):
+    """Write the balls that ball `i` may touch, and itself, into `near`; return their number."""
+    if cells.first.size == 1:
+        return len(balls)
+    x, y = balls[i].cell_x, balls[i].cell_y
+    return list_cells(balls, cells, x - 1, x + 1, y - 1, y + 1)
+
+
+@inlined
+def list_cells(balls, cells, x0, x1, y0, y1):
+    """Write the balls of cells (x0, y0) to (x1, y1) into `near`; return how many they are."""
+    rows, columns = cells.first.shape
+    count = 0
+    for y in range(max(y0, 0), min(y1, rows - 1) + 1):
+        for x in range(max(x0, 0), min(x1, columns - 1) + 1):
+            k = cells.first[y, x]
+            while k >= 0:
+                cells.near[count] = k
+                count += 1
+                k = balls[k].after
+    return count
+
+
+@inlined
+def ways_out(cells, ball, x, y):
+    """Return the ways in m to where a moving ball, now at (x, y), leaves its cell in x and in y.
+
+    The sides of the table are no ways out: inf.
+    """
+    rows, columns = cells.first.shape
+    to_x = to_y = np.inf
+    if ball.ux > 0.0 and ball.cell_x < columns - 1:
+        to_x = ((ball.cell_x + 1) * cells.width - x) / ball.ux
+    elif ball.ux < 0.0 and ball.cell_x > 0:
+        to_x = (ball.cell_x * cells.width - x) / ball.ux
+    if ball.uy > 0.0 and ball.cell_y < rows - 1:
+        to_y = ((ball.cell_y + 1) * cells.height - y) / ball.uy
+    elif ball.uy < 0.0 and ball.cell_y > 0:
+        to_y = (ball.cell_y * cells.height - y) / ball.uy
+    return to_x, to_y
+
+
+@inlined
+def move_on(balls, cells, i, x, y):
+    """Move ball `i`, at (x, y) on the edge of its cell, into the next cell.
+
+    Writes the balls that it may touch there, and could not before, into `near`; returns how many
+    they are.
+    """
+    ball = balls[i]
+    to_x, to_y = ways_out(cells, ball, x, y)
+    leave(balls, cells, i)
+    if to_x <= to_y:
+        step = 1 if ball.ux > 0.0 else -1
+        ball.cell_x += step
+        x0 = x1 = ball.cell_x + step
+        y0, y1 = ball.cell_y - 1, ball.cell_y + 1
+    else:
+        step = 1 if ball.uy > 0.0 else -1
+        ball.cell_y += step
+        x0, x1 = ball.cell_x - 1, ball.cell_x + 1
+        y0 = y1 = ball.cell_y + step
+    enter(balls, cells, i)
+    return list_cells(balls, cells, x0, x1, y0, y1)
