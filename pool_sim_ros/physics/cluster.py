@@ -189,7 +189,13 @@ def gather_cushions(balls, world, cluster, count, i, a, b, now, slowest):
 @kernel
 def resolve(balls, world, cluster, count, members):
     """Give the members their velocities after all contacts, whose `separation` is set."""
-    find_normal_impulses(balls, cluster, count, members)
+    if count == 1:
+        one = cluster.contacts[0]
+        needed = one.closing + one.separation
+        one.impulse = max(needed / total_compliance(balls, cluster, 1, 0), 0.0)
+        push(balls, cluster, one, one.impulse)
+    else:
+        find_normal_impulses(balls, cluster, count, members)
     for m in range(members):
         ball = cluster.members[m]
         cluster.pushes[ball] = 0.0

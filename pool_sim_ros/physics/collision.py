@@ -26,16 +26,22 @@ COLLAPSE_GROWTH = 4.0
 REPEAT_WINDOW = 1e-3
 """Time in s within which a weak contact repeats an earlier one."""
 
+ROUND = 1e-6
+"""Time in s within which a contact belongs to the same rattle as the one before."""
+
 MAX_ROUNDS = 200
-"""Contacts of one ball at one instant after which its cluster is pulled apart at V_MIN."""
+"""Contacts of one ball in a rattle after which it parts from what it touches at V_MIN."""
 
 LAST_ROUND = 250
-"""The same, after which the cluster moves as one: it is wedged and cannot part."""
+"""The same, after which all that touches moves as one: it is wedged and cannot part."""
 
 
 @inlined
 def stands_alone(balls, world, cells, a, b, now):
-    """Return whether nothing else can collide with moving ball `a` or with `b` at this instant."""
+    """Return whether the contact of moving ball `a` with `b` is the plain case.
+
+    That is: nothing else can collide with either at this instant, and neither rattles.
+    """
     if rounds_at(balls, a, b, now) > MAX_ROUNDS:
         return False
     if is_touched(balls, world, cells, a, b, now):
@@ -77,9 +83,9 @@ def touches_cushion(world, x, y, radius, but):
 
 @inlined
 def rounds_at(balls, a, b, now):
-    """Return how many contacts at this very instant the more stricken of two balls has had."""
-    rounds = balls[a].rounds if balls[a].touched == now else 0
-    if b >= 0 and balls[b].touched == now:
+    """Return how many contacts the more stricken of two balls has had in a rattle up to now."""
+    rounds = balls[a].rounds if now - balls[a].touched < ROUND else 0
+    if b >= 0 and now - balls[b].touched < ROUND:
         rounds = max(rounds, balls[b].rounds)
     return rounds
 
@@ -88,13 +94,14 @@ def rounds_at(balls, a, b, now):
 def separation_speed(balls, world, a, b, closing, now):
     """Return the speed in m/s at which the two sides of a contact are to part.
 
-    Restitution times the closing speed; but balls that meet weakly, and again within a moment,
-    part a little faster each time, up to V_MIN. This ends the infinitely many bounces in finite
-    time (inelastic collapse) that decelerating balls can fall into.
+    Restitution times the closing speed; but what meets weakly, and again within a moment, may
+    bounce infinitely often in finite time (inelastic collapse). Then balls part a little faster
+    each time, up to V_MIN, and a ball stays at a cushion.
     """
     closing = max(closing, 0.0)
     if b < 0:
-        return world.e_ball_cushion * closing
+        again = closing <= V_MIN and now - balls[a].touched < REPEAT_WINDOW
+        return 0.0 if again else world.e_ball_cushion * closing
     parting = restitution(world, balls[a].is_cue, balls[b].is_cue) * closing
     if closing > V_MIN:
         return parting
@@ -120,7 +127,7 @@ def bring_to(balls, world, i, now):
 def set_off(balls, i, velocity, now, log):
     """Set ball `i` off after a contact."""
     ball = balls[i]
-    ball.rounds = min(ball.rounds, LAST_ROUND) + 1 if ball.touched == now else 1
+    ball.rounds = min(ball.rounds, LAST_ROUND) + 1 if now - ball.touched < ROUND else 1
     ball.touched = now
     set_velocity(ball, velocity[0], velocity[1])
     log_motion(balls, i, now, log)
@@ -154,11 +161,13 @@ def hit_cushion(balls, world, a, partner, now, log):
     """Resolve a contact of a ball that touches nothing but one cushion."""
     vx, vy = bring_to(balls, world, a, now)
     nx, ny = cushion_normal(CUSHION_X0 - partner)
-    log_contact(balls, a, partner, nx, ny, vx * nx + vy * ny, now, log)
+    closing = vx * nx + vy * ny
+    parting = separation_speed(balls, world, a, partner, closing, now)
+    log_contact(balls, a, partner, nx, ny, closing, now, log)
     if partner >= CUSHION_X1:
-        vx, vy = collide_cushion(world, vx, vy)
+        vx, vy = collide_cushion(world, vx, vy, parting)
     else:
-        vy, vx = collide_cushion(world, vy, vx)
+        vy, vx = collide_cushion(world, vy, vx, parting)
     set_off(balls, a, (vx, vy), now, log)
 
 
@@ -181,9 +190,12 @@ def hit_crowd(balls, world, cluster, count, members, now, log):
     for c in range(count):
         one = cluster.contacts[c]
         rounds = max(rounds, rounds_at(balls, one.a, one.b, now))
-        one.separation = separation_speed(balls, world, one.a, one.b, one.closing, now)
+    for c in range(count):
+        one = cluster.contacts[c]
         if rounds > MAX_ROUNDS:
             one.separation = V_MIN if one.closing > 0.0 else 0.0
+        else:
+            one.separation = separation_speed(balls, world, one.a, one.b, one.closing, now)
     if rounds > LAST_ROUND:
         move_as_one(balls, cluster, count, members)
     else:

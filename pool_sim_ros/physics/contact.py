@@ -123,10 +123,13 @@ def collide_balls(world, va, vb, normal, inverse_a, inverse_b, separation):
 
 
 @inlined
-def collide_cushion(world, normal_speed, tangential):
-    """Return the normal and tangential velocity of a ball after a cushion (report, Equation 9)."""
-    after = -world.e_ball_cushion * normal_speed
-    return after, rub_cushion(tangential, after - normal_speed, world.mu_ball_cushion, 1.0)
+def collide_cushion(world, normal, tangential, separation):
+    """Return the normal and tangential velocity of a ball after a cushion (report, Equation 9).
+
+    `separation` is the speed at which it leaves: ``e |v_n|``.
+    """
+    after = -sign(normal) * separation
+    return after, rub_cushion(tangential, after - normal, world.mu_ball_cushion, 1.0)
 
 
 @inlined

@@ -146,20 +146,18 @@ def run(balls, world, cells, schedule, cluster, until, log):
 @inlined
 def collide(balls, world, cells, schedule, cluster, a, b, now, log):
     """Resolve the contact of ball `a` with `b` that is due; return False where the log is full."""
-    contacts, members = 1, 2 if b >= 0 else 1
+    changed = cluster.members
     if not stands_alone(balls, world, cells, a, b, now):
         contacts, members = gather_crowd(balls, world, cells, cluster, a, b, now)
         if not has_room(log, contacts, members):
             return False
-    changed = cluster.members
-    if contacts > 1:
         hit_crowd(balls, world, cluster, contacts, members, now, log)
     elif b >= 0:
         hit_ball(balls, world, a, b, now, log)
-        changed[0], changed[1] = a, b
+        changed[0], changed[1], members = a, b, 2
     else:
         hit_cushion(balls, world, a, b, now, log)
-        changed[0] = a
+        changed[0], members = a, 1
     predict_after(balls, world, cells, schedule, changed, members, now)
     return True
 

@@ -31,7 +31,7 @@ BALL = np.dtype(
         ('after', 'i4'),  # the next ball in its cell; -1 for none
         ('before', 'i4'),  # the one before
         ('repeats', 'i2'),  # weak contacts in quick succession, up to now
-        ('rounds', 'i2'),  # contacts at the very instant `touched`
+        ('rounds', 'i2'),  # contacts in the rattle that `touched` belongs to
         ('is_cue', 'i4'),
     ],
     align=True,

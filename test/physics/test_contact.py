@@ -148,15 +148,17 @@ def test_cushion_equals_twin():
     rng = np.random.default_rng(14)
     speeds = [*itertools.product(NASTY, repeat=2), *rng.normal(size=(500, 2))]
     for normal_speed, tangential in speeds:
-        found = contact.collide_cushion(world('coulomb'), normal_speed, tangential)
+        found = contact.collide_cushion(
+            world('coulomb'), normal_speed, tangential, 0.7 * abs(normal_speed)
+        )
         twin = naive.collide_cushion((normal_speed, tangential), 0, 0.7, 0.2)
         np.testing.assert_allclose(found, twin, rtol=1e-15, atol=1e-300)
 
 
 def test_cushion_by_hand():
     # Equation 9: 1 m/s becomes -0.7; the other 1 m/s loses 0.2 * 1.7.
-    assert contact.collide_cushion(world('report'), 1.0, 1.0) == pytest.approx((-0.7, 0.66))
-    assert contact.collide_cushion(world('report'), 1.0, -0.1) == pytest.approx((-0.7, 0.0))
+    assert contact.collide_cushion(world('report'), 1.0, 1.0, 0.7) == pytest.approx((-0.7, 0.66))
+    assert contact.collide_cushion(world('report'), 1.0, -0.1, 0.7) == pytest.approx((-0.7, 0.0))
 
 
 def test_cue_ball_has_its_own_restitution():

@@ -176,6 +176,34 @@ def test_four_balls_that_meet_in_the_middle_stay_symmetric_under_coulomb(e):
         assert abs(offsets[k] @ [-uy, ux]) < 1e-12
 
 
+@pytest.mark.parametrize('e', [1.0, 0.9, 0.5])
+def test_separate_contacts_of_one_instant_come_before_what_they_cause(e):
+    """Four touching balls, the outer two driven inwards: both outer contacts, then the inner."""
+    places = [(0.5 + 0.1 * k, 0.5) for k in range(4)]
+    table = table_of(places, e_cue_ball=e, e_ball_ball=e, ball_friction='coulomb')
+    shot = simulate(table, [(1.0, 0.0), (0.0, 0.0), (0.0, 0.0), (-1.0, 0.0)], until=1e-3)
+    along = shot.final_velocities[:, 0]
+    assert np.abs(along + along[::-1]).max() < 1e-9
+    assert along[3] > 0.1
+
+
+def test_the_order_of_balls_that_touch_does_not_matter_under_coulomb():
+    rng = np.random.default_rng(54)
+    cells = [
+        (0.05 + 0.1 * i + 0.05 * (j % 2), 0.05 + j * 0.05 * 3**0.5)
+        for i in range(3)
+        for j in (0, 1)
+    ]
+    for _ in range(20):
+        velocities = rng.normal(size=(len(cells), 2))
+        table = table_of(cells, ball_friction='coulomb', e_cue_ball=0.8, e_ball_ball=0.8)
+        order = rng.permutation(len(cells))
+        shuffled = dataclasses.replace(table, balls=[table.balls[k] for k in order])
+        expected = simulate(table, velocities, until=1e-6).final_velocities[order]
+        found = simulate(shuffled, velocities[order], until=1e-6).final_velocities
+        assert np.abs(found - expected).max() < 1e-9
+
+
 @pytest.mark.parametrize('law', LAWS)
 @pytest.mark.parametrize('integrator', ['event', 'time_slice'])
 def test_a_shot_taken_up_again_goes_on_as_before(law, integrator):
