@@ -16,8 +16,6 @@ def new_schedule(n: int) -> np.ndarray:
     schedule = np.zeros(2 * n, NODE)
     schedule['t'] = np.inf
     schedule['ball'][n:] = np.arange(n)
-    for k in range(n - 1, 0, -1):
-        schedule['ball'][k] = schedule['ball'][2 * k]
     return schedule
 
 

@@ -1,0 +1,88 @@
+"""When the next frame is due by the wall."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+MAX_LAG = 0.1
+"""Seconds of lateness that are caught up; past that the pace slips, so that a machine which was
+asleep or stopped does not answer with a flood of frames."""
+
+
+class Pacer:
+    """Turns wall time into the time to wait for the next frame.
+
+    No frame is ever left out: lateness only moves the frames.
+
+    Parameters
+    ----------
+    rate : float
+        Frames per second of sim time.
+    real_time_factor : float, optional
+        Sim seconds per wall second; 0 = as fast as possible, and real time while nothing moves.
+    clock : callable, optional
+        Returns seconds; best one that nobody sets.
+    """
+
+    def __init__(
+        self,
+        rate: float,
+        real_time_factor: float = 1.0,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._rate = rate
+        self._factor = real_time_factor
+        self._clock = clock
+        self._hurrying = False
+        self.lateness = 0.0
+        """How late the latest frame was, s; 0 as fast as possible."""
+        self.restart()
+
+    @property
+    def real_time_factor(self) -> float:
+        """Sim seconds per wall second that are aimed at; setting it makes a frame due now."""
+        return self._factor
+
+    @real_time_factor.setter
+    def real_time_factor(self, factor: float) -> None:
+        self._factor = factor
+        self.restart()
+
+    def restart(self) -> None:
+        """Count from now on: the next frame is due now."""
+        self._anchor = self._clock()
+        self._shown = 0
+
+    def wait(self, moving: bool) -> float:
+        """Return the seconds until the next frame is due; at most 0 when it is.
+
+        Parameters
+        ----------
+        moving : bool
+            Whether the balls move.
+        """
+        hurrying = moving and self._factor == 0
+        if hurrying != self._hurrying:
+            self._hurrying = hurrying
+            self.restart()
+        if hurrying:
+            return 0.0
+        wait = self._due() - self._clock()
+        if -MAX_LAG <= wait <= 1.001 * self._period:
+            return wait
+        # Too late to catch up, or the clock was set back.
+        self.restart()
+        return 0.0
+
+    def shown(self) -> None:
+        """Note that the frame that was due was shown."""
+        self.lateness = 0.0 if self._hurrying else max(self._clock() - self._due(), 0.0)
+        self._shown += 1
+
+    @property
+    def _period(self) -> float:
+        return 1.0 / (self._rate * (self._factor or 1.0))
+
+    def _due(self) -> float:
+        return self._anchor + self._shown * self._period

@@ -1,0 +1,264 @@
+"""The threads of the simulation: one shows the frames, one computes the shots."""
+
+from __future__ import annotations
+
+import threading
+import time
+import traceback
+from collections.abc import Sequence
+from typing import Protocol
+
+from pool_sim_ros.pacer import Pacer
+from pool_sim_ros.physics import compile_kernels
+from pool_sim_ros.playback import Frame
+from pool_sim_ros.protocol import Response
+from pool_sim_ros.settings import Settings
+from pool_sim_ros.simulation import Job, Simulation
+from pool_sim_ros.worker import Worker
+
+STATE_PERIOD = 1.0
+"""Seconds between two states while nothing changes: a heartbeat for clients."""
+
+PAUSED_CLOCK_PERIOD = 0.1
+"""Seconds between two clocks while paused: a late subscriber must not wait long."""
+
+LONGEST_NAP = 0.05
+"""Seconds after which the playback thread looks up at the latest: it bounds how long resuming and
+stopping take."""
+
+LONGEST_BATCH = 0.002
+"""Seconds of frames in a row while the lock is held: it bounds how long a request waits."""
+
+SHORTEST_NAP = 1e-4
+"""Seconds for which the lock is free between two batches, long enough to be taken by a waiter."""
+
+BUSY_NAP = 1e-3
+"""The same while requests keep coming, so that they get their share of the interpreter."""
+
+BUSY_PERIOD = 0.05
+"""Seconds after a request in which another one is expected."""
+
+STEP_PATIENCE = 5.0
+"""Seconds for which a step waits for the shot that is being computed, so that it is shown."""
+
+COMPILE_NOTICE = 1.0
+"""Seconds after which the kernels are not merely being loaded, but compiled."""
+
+
+class Output(Protocol):
+    """Where everything goes; called by one thread at a time."""
+
+    def frame(self, frame: Frame) -> None:
+        """Send a tick: the clock, the collisions up to it, then the balls."""
+
+    def clock(self, stamp: int) -> None:
+        """Send the sim time in ns."""
+
+    def responses(self, responses: Sequence[Response]) -> None:
+        """Send responses."""
+
+    def state(self, state: dict[str, object]) -> None:
+        """Send the state."""
+
+    def table(self, settings: Settings) -> None:
+        """Send the table."""
+
+    def tell(self, line: str) -> None:
+        """Tell the user what goes on."""
+
+    def fail(self, line: str) -> None:
+        """Tell the user why nothing can go on, and bring the process to its end."""
+
+    def is_open(self) -> bool:
+        """Return whether anything can still be sent."""
+
+
+class Player:
+    """Plays a simulation in time.
+
+    One lock guards the simulation, the pacer and the order of what is sent: who holds it may use
+    all three, and must not compute or sleep meanwhile. Every method may be called from any thread.
+
+    Parameters
+    ----------
+    settings : Settings
+    output : Output
+    """
+
+    def __init__(self, settings: Settings, output: Output) -> None:
+        self.ready = threading.Event()
+        """Set once the kernels are compiled and this was told."""
+        self._simulation = Simulation(settings)
+        self._pacer = Pacer(settings.publish_rate, settings.real_time_factor)
+        self._output = output
+        self._lock = threading.Lock()
+        self._computed = threading.Condition(self._lock)
+        self._stopping = threading.Event()
+        self._shown_state: dict[str, object] = {}
+        self._last_request = self._next_state = self._next_clock = time.monotonic()
+        output.table(settings)
+        self._worker = Worker('compute')
+        self._worker.submit(self._prepare)
+        self._playing = threading.Thread(target=self._play, name='playback', daemon=True)
+        self._playing.start()
+
+    def request(self, text: str) -> Response:
+        """Take, and answer, a request as `~/shot/request` carries it."""
+        with self._lock:
+            return self._answer(*self._simulation.request(text))
+
+    def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Response:
+        """Take, and answer, a twist of the cue ball, (3,) m/s and (3,) rad/s."""
+        with self._lock:
+            return self._answer(*self._simulation.strike(linear, angular))
+
+    def reset(self) -> bool:
+        """Put the balls back on the start layout; return whether a shot was preempted."""
+        with self._lock:
+            preempted = self._simulation.reset()
+            self._output.responses(preempted)
+            self._show_state()
+            self._computed.notify_all()
+            return bool(preempted)
+
+    def set_paused(self, paused: bool) -> None:
+        """Pause or resume."""
+        with self._lock:
+            self._simulation.playback.paused = paused
+            self._pacer.restart()
+            self._show_state()
+
+    def step(self) -> tuple[bool, str]:
+        """Advance by `step_ticks` while paused; return whether this was done, and words."""
+        simulation = self._simulation
+        with self._lock:
+            if not simulation.playback.paused:
+                return False, 'only a paused table can be stepped; call set_paused first'
+            if not self._computed.wait_for(lambda: not simulation.computing, STEP_PATIENCE):
+                return False, 'a shot is still being computed; step again once state says it is not'
+            for _ in range(simulation.settings.step_ticks):
+                self._show_next_frame()
+            return True, f'at tick {simulation.playback.tick}'
+
+    def apply(self, settings: Settings) -> None:
+        """Take new settings; what concerns a shot counts from the next strike."""
+        with self._lock:
+            old, self._simulation.settings = self._simulation.settings, settings
+            if settings.table != old.table:
+                self._output.table(settings)
+            if settings.real_time_factor != old.real_time_factor:
+                self._pacer.real_time_factor = settings.real_time_factor
+            self._show_state()
+
+    def stop(self, timeout: float) -> bool:
+        """Send nothing more; return whether the shot being computed ended within `timeout` s."""
+        self._stopping.set()
+        self._playing.join()
+        with self._lock:  # a result that is just being taken over
+            pass
+        return self._worker.stop(timeout)
+
+    @property
+    def _running(self) -> bool:
+        return not self._stopping.is_set() and self._output.is_open()
+
+    def _answer(self, response: Response, job: Job | None) -> Response:
+        self._last_request = time.monotonic()
+        self._output.responses([response])
+        self._show_state()
+        if job is not None:
+            self._worker.submit(lambda: self._compute(job))
+        return response
+
+    def _prepare(self) -> None:
+        notice = threading.Timer(COMPILE_NOTICE, self._tell_of_compiling)
+        notice.daemon = True
+        notice.start()
+        try:
+            compile_kernels(self._simulation.settings.table)
+            if self._running:
+                self._output.tell('ready')
+                self.ready.set()
+        except Exception:
+            self._fail('the physics kernels could not be compiled')
+        finally:
+            notice.cancel()
+
+    def _tell_of_compiling(self) -> None:
+        if self._running:
+            self._output.tell(
+                'compiling the physics kernels, on the first run only: this takes about 20 s'
+            )
+
+    def _compute(self, job: Job) -> None:
+        try:
+            result = job.run()
+        except Exception as error:
+            result = error
+        try:
+            with self._lock:
+                if self._running:
+                    self._output.responses(self._simulation.computed(job, result))
+                    self._show_state()
+                    self._computed.notify_all()
+        except Exception:
+            self._fail('a shot could not be taken over')
+
+    def _play(self) -> None:
+        try:
+            while self._running:
+                with self._lock:
+                    wait = self._show_due_frames()
+                    self._show_signs_of_life()
+                busy = time.monotonic() - self._last_request < BUSY_PERIOD
+                time.sleep(min(max(wait, BUSY_NAP if busy else SHORTEST_NAP), LONGEST_NAP))
+        except Exception:
+            self._fail('playback failed')
+
+    def _show_due_frames(self) -> float:
+        """Show what is due; return the seconds until the next frame is."""
+        if self._simulation.playback.paused:
+            return LONGEST_NAP
+        end = time.monotonic() + LONGEST_BATCH
+        while (wait := self._pacer.wait(self._simulation.moving)) <= 0.0:
+            self._show_next_frame()
+            self._pacer.shown()
+            if time.monotonic() > end:
+                return 0.0
+        return wait
+
+    def _show_next_frame(self) -> None:
+        frame, responses = self._simulation.next_frame()
+        self._output.frame(frame)
+        if frame.started or frame.finished:
+            self._show_state()
+        self._output.responses(responses)
+
+    def _show_signs_of_life(self) -> None:
+        now = time.monotonic()
+        if now >= self._next_state:
+            self._show_state(always=True)
+        playback = self._simulation.playback
+        if playback.paused and now >= self._next_clock:
+            self._output.clock(playback.stamp)
+            self._next_clock = now + PAUSED_CLOCK_PERIOD
+
+    def _show_state(self, always: bool = False) -> None:
+        """Send the state, if more of it has changed than the time, or `always`."""
+        simulation = self._simulation
+        state = {
+            'paused': simulation.playback.paused,
+            'moving': simulation.moving,
+            'computing': simulation.computing,
+            'real_time_factor': self._pacer.real_time_factor,
+        }
+        if state == self._shown_state and not always:
+            return
+        self._shown_state = state
+        self._next_state = time.monotonic() + STATE_PERIOD
+        playback = simulation.playback
+        self._output.state({**state, 'tick': playback.tick, 'sim_time': playback.stamp * 1e-9})
+
+    def _fail(self, what: str) -> None:
+        if self._running:  # else it failed because ROS went down in the middle of it
+            self._output.fail(f'{what}:\n{traceback.format_exc()}')

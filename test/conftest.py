@@ -1,0 +1,28 @@
+"""Fixtures for tests over ROS: loopback only, a domain of its own for each run."""
+
+import os
+
+import pytest
+
+os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+# A process that is killed while it writes to shared memory leaves that broken for all others.
+os.environ['FASTDDS_BUILTIN_TRANSPORTS'] = 'UDPv4'
+
+
+@pytest.fixture(scope='session')
+def domain():
+    """A ROS_DOMAIN_ID that no other test run on this machine uses, set for child processes too."""
+    from ros_harness import own_domain
+
+    with own_domain() as number:
+        os.environ['ROS_DOMAIN_ID'] = str(number)
+        yield number
+
+
+@pytest.fixture
+def ros(domain):
+    """A private ROS context with an executor that the test itself spins."""
+    from ros_harness import Ros
+
+    with Ros(domain) as ros:
+        yield ros

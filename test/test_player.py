@@ -1,0 +1,239 @@
+import threading
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from fakes import Recorder
+from waiting import wait_until
+
+from pool_sim_ros import player as player_module
+from pool_sim_ros.player import Player
+from pool_sim_ros.protocol import Code, Phase
+from pool_sim_ros.settings import build_settings, default_values
+from pool_sim_ros.simulation import Job
+
+SETTINGS = replace(
+    build_settings(default_values()), report_integrator='event', real_time_factor=100.0
+)
+
+
+@pytest.fixture
+def start():
+    """Make players, and stop them in the end."""
+    players = []
+
+    def make(**changes):
+        output = Recorder()
+        players.append(Player(replace(SETTINGS, **changes), output))
+        return players[-1], output
+
+    yield make
+    for player in players:
+        player.stop(0.0)
+
+
+@pytest.fixture
+def slow_shots(monkeypatch):
+    """Hold the computing of every shot until the event is set."""
+    go_on = threading.Event()
+    run = Job.run
+
+    def wait_and_run(job):
+        assert go_on.wait(60.0)
+        return run(job)
+
+    monkeypatch.setattr(Job, 'run', wait_and_run)
+    yield go_on
+    go_on.set()
+
+
+def wait_for_phase(output, phase):
+    wait_until(lambda: phase in [r.phase for r in output.all('response')], phase)
+    return next(r for r in output.all('response') if r.phase is phase)
+
+
+def test_everything_is_sent_in_the_order_that_readers_rely_on(start):
+    player, output = start()
+    accepted = player.request('1')
+    done = wait_for_phase(output, Phase.DONE)
+    player.stop(0.0)
+    sent = output.sent
+    kinds = [kind for kind, _ in sent]
+    assert kinds[0] == 'table'
+
+    frames = output.all('frame')
+    assert [f.tick for f in frames] == list(range(len(frames)))
+    started = next(f for f in frames if f.started)
+    finished = next(f for f in frames if f.finished)
+    place = {id(item): index for index, (_, item) in enumerate(sent)}
+    assert place[id(accepted)] < place[id(started)] < place[id(finished)] < place[id(done)]
+    assert done.t_start == pytest.approx(started.stamp * 1e-9)
+    states = [(kind, item) for kind, item in sent if kind == 'state']
+    moving = [state['moving'] for _, state in states]
+    assert moving.count(True) >= 1 and not moving[-1]
+    assert place[id(states[-1][1])] > place[id(finished)]
+
+
+def test_frames_go_on_at_rest_while_a_shot_is_computed(start, slow_shots):
+    player, output = start()
+    response = player.request('{"velocity": [-4, 0]}')
+    assert response.phase is Phase.ACCEPTED
+    first = output.all('frame')[-1].tick
+    wait_until(lambda: output.all('frame')[-1].tick > first + 50, 'frames while computing')
+    frames = output.all('frame')
+    assert not any(f.started for f in frames)
+    assert all(np.array_equal(f.positions, SETTINGS.table.positions) for f in frames)
+    assert output.all('state')[-1]['computing']
+    assert player.request('1').code is Code.BUSY
+    slow_shots.set()
+    wait_for_phase(output, Phase.DONE)
+    assert all(b.tick == a.tick + 1 for a, b in pairwise(output.all('frame')))
+
+
+def test_a_reset_while_computing_answers_at_once_and_the_result_is_dropped(start, slow_shots):
+    player, output = start()
+    player.request('1')
+    assert player.reset() is True
+    assert [r.phase for r in output.all('response')] == [Phase.ACCEPTED, Phase.PREEMPTED]
+    second = player.request('2')
+    slow_shots.set()
+    done = wait_for_phase(output, Phase.DONE)
+    assert done.id == second.id
+    assert len(output.all('response')) == 4
+    assert player.reset() is False
+
+
+def test_as_fast_as_possible_still_answers_in_between(start):
+    player, output = start(real_time_factor=0.0, max_shot_duration=1e4,
+                           table=replace(SETTINGS.table, mu_ball_surface=1e-3))
+    player.request('{"velocity": [3, 1]}')
+    wait_until(lambda: output.all('frame')[-1].velocities.any(), 'motion')
+    tick = output.all('frame')[-1].tick
+    for _ in range(20):
+        assert player.request('1').code is Code.BUSY
+    assert not output.all('frame')[-1].finished
+    wait_until(lambda: output.all('frame')[-1].tick > tick + 500, 'many frames')
+    assert player.reset() is True
+
+
+def test_a_late_output_slips_and_leaves_no_frame_out(start, monkeypatch):
+    player, output = start(real_time_factor=1000.0)
+    stall = threading.Event()
+    keep = output.frame
+
+    def frame(item):
+        if not stall.is_set() and item.tick == 20:
+            stall.wait(0.5)
+        keep(item)
+
+    monkeypatch.setattr(output, 'frame', frame)
+    wait_until(lambda: len(output.all('frame')) > 200, 'frames after the stall')
+    assert [f.tick for f in output.all('frame')][:200] == list(range(200))
+
+
+def test_paused_shows_no_frames_but_takes_a_strike_that_begins_on_resume(start):
+    player, output = start(start_paused=True)
+    wait_until(lambda: len(output.all('clock')) >= 2, 'the clock while paused')
+    assert output.all('frame') == []
+    assert output.all('state')[-1]['paused']
+    assert player.request('1').phase is Phase.ACCEPTED
+    wait_until(lambda: not output.all('state')[-1]['computing'], 'the result')
+    assert output.all('frame') == [] and set(output.all('clock')) == {0}
+    player.set_paused(False)
+    done = wait_for_phase(output, Phase.DONE)
+    assert (done.t_start, output.all('frame')[0].started) == (0.0, True)
+
+
+def test_a_step_waits_for_the_result_and_advances_step_ticks(start, slow_shots):
+    player, output = start(start_paused=True, step_ticks=3)
+    player.request('1')
+    threading.Timer(0.2, slow_shots.set).start()
+    assert player.step() == (True, 'at tick 2')
+    assert [f.tick for f in output.all('frame')] == [0, 1, 2]
+    assert output.all('frame')[0].started
+
+
+def test_a_step_gives_up_on_a_result_that_does_not_come(start, slow_shots, monkeypatch):
+    monkeypatch.setattr(player_module, 'STEP_PATIENCE', 0.01)
+    player, output = start(start_paused=True)
+    player.request('1')
+    stepped, words = player.step()
+    assert not stepped and 'computed' in words
+    assert output.all('frame') == []
+
+
+def test_a_step_while_playing_is_an_error(start):
+    player, _ = start()
+    stepped, words = player.step()
+    assert not stepped and 'set_paused' in words
+
+
+def test_new_settings_are_announced_and_counted(start):
+    player, output = start()
+    table = replace(SETTINGS.table, e_cue_ball=0.9)
+    player.apply(replace(SETTINGS, table=table, real_time_factor=50.0))
+    assert output.all('table')[-1] == table
+    assert output.all('state')[-1]['real_time_factor'] == 50.0
+    tables = len(output.all('table'))
+    player.apply(replace(SETTINGS, table=table, real_time_factor=60.0))
+    assert len(output.all('table')) == tables
+
+
+def test_a_shot_that_fails_is_preempted_and_the_next_one_played(start, monkeypatch):
+    player, output = start()
+    with monkeypatch.context() as patch:
+        patch.setattr(Job, 'run', lambda job: 1 / 0)
+        player.request('1')
+        preempted = wait_for_phase(output, Phase.PREEMPTED)
+    assert preempted.code is Code.FAILED and 'division' in preempted.reason
+    player.request('1')
+    wait_for_phase(output, Phase.DONE)
+
+
+def test_a_failing_output_is_reported_once_and_ends_the_playback(start, monkeypatch):
+    player, output = start()
+
+    def fail(_):
+        raise OSError('no room')
+
+    monkeypatch.setattr(output, 'frame', fail)
+    wait_until(lambda: not output.open, 'the failure')
+    assert len(output.all('fail')) == 1 and 'no room' in output.all('fail')[0]
+
+
+def test_a_closed_output_ends_the_playback_without_a_word(start, monkeypatch):
+    player, output = start()
+    wait_until(lambda: output.all('frame'), 'a frame')
+
+    def closed(_):
+        output.open = False
+        raise OSError('closed')
+
+    monkeypatch.setattr(output, 'frame', closed)
+    wait_until(lambda: not output.open, 'the end')
+    player.stop(0.0)
+    assert output.all('fail') == []
+
+
+def test_stop_leaves_a_shot_behind_that_cannot_be_interrupted(start, slow_shots):
+    player, output = start()
+    assert player.ready.wait(300.0)
+    player.request('1')
+    assert player.stop(0.0) is False
+    sent = len(output.sent)
+    slow_shots.set()
+    assert player.stop(60.0) is True
+    assert len(output.sent) == sent
+
+
+def test_it_says_that_it_is_ready_and_what_it_waits_for(start, monkeypatch):
+    monkeypatch.setattr(player_module, 'COMPILE_NOTICE', 0.01)
+    go_on = threading.Event()
+    monkeypatch.setattr(player_module, 'compile_kernels', lambda table: go_on.wait(60.0))
+    player, output = start()
+    wait_until(lambda: output.all('tell'), 'the notice')
+    assert 'compiling' in output.all('tell')[0] and not player.ready.is_set()
+    go_on.set()
+    assert player.ready.wait(60.0)
+    assert output.all('tell')[-1] == 'ready'
