@@ -43,9 +43,10 @@ class LaunchersToo(Distribution().get_command_class('install_data')):
 
     def run(self):
         super().run()
-        folder = Path(self.install_dir, 'lib', NAME)
-        if Path(self.get_finalized_command('install').install_scripts) == folder:
+        scripts = Path(self.get_finalized_command('install').install_scripts)
+        if scripts.parts[-2:] == ('lib', NAME):
             return
+        folder = Path(self.install_dir, 'lib', NAME)
         folder.mkdir(parents=True, exist_ok=True)
         for command in COMMANDS:
             name = command.split()[0]

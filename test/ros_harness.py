@@ -179,6 +179,16 @@ class Observer:
         self._ros.spin_until(lambda: phase in self.phases(request_id), f'{phase} of {request_id}')
         return next(r for r in self.responses if (r['id'], r['phase']) == (request_id, phase))
 
+    def wait_for_frame_at(self, time):
+        """Wait for a frame at or after a sim time in s, and return the positions in the latest."""
+        poses = self.heard[interface.BALL_POSES.name]
+
+        def latest():
+            return conversions.from_time(poses[-1].header.stamp) if poses else -1
+
+        self._ros.spin_until(lambda: latest() >= time * 1e9 - 0.5, f'a frame at {time} s')
+        return conversions.from_poses(poses[-1])
+
     def wait_for_settled(self, count):
         """Wait until `count` requests are accepted or rejected, and those accepted are over."""
 

@@ -98,7 +98,7 @@ def test_a_node_that_is_restarted_in_the_middle_is_one_clear_line_and_status_1(d
 
 
 def test_ctrl_c_is_one_clear_line(domain):
-    with other_simulator() as node:
+    with other_simulator():
         with Process('shot', *STRIKE_OTHER) as shot:
             shot.wait_for('accepted')
             shot.interrupt()

@@ -71,9 +71,7 @@ def test_a_strike_through_either_door_is_played_to_the_end_that_the_physics_give
     done = observer.wait_for_phase(second, 'done')
     shot = simulate(table, (1.0, 1.0), positions=shot.final_positions)
     assert np.array_equal(list(done['final_positions'].values()), shot.final_positions)
-    ros.spin_until(lambda: not observer.state['moving'], 'rest')
-    last = observer.heard['ball_poses'][-1]
-    assert np.array_equal(conversions.from_poses(last), shot.final_positions)
+    assert np.array_equal(observer.wait_for_frame_at(done['t_end']), shot.final_positions)
 
 
 @pytest.mark.parametrize(

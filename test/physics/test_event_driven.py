@@ -7,9 +7,9 @@ import naive_events
 import numpy as np
 import oracle
 import pytest
-from tables import LAWS, random_table, random_velocity, report_shots, table_of
+from tables import LAWS, random_layout, random_table, random_velocity, report_shots, table_of
 
-from pool_sim_ros.physics import report_table, simulate
+from pool_sim_ros.physics import Ball, Table, report_table, simulate
 
 
 def assert_equals_oracle(table, velocities, within=1e-9, **start):
@@ -63,6 +63,18 @@ def test_without_surface_friction_equals_the_oracle(law):
         velocities = [random_velocity(rng, 0.2, 1.5) for _ in table.balls]
         compared += assert_equals_oracle(table, velocities, until=1.5)
     assert compared >= 5
+
+
+@pytest.mark.parametrize('law', LAWS)
+def test_crowded_tables_equal_the_oracle(law):
+    """So many balls that not every pair is looked at."""
+    rng = np.random.default_rng(36)
+    radii = rng.uniform(0.005, 0.03, 60)
+    places = random_layout(rng, radii, 1.5, 0.9)
+    balls = [Ball(str(k), 0.16, radii[k], tuple(places[k]), is_cue=k == 0) for k in range(60)]
+    table = Table(1.5, 0.9, balls, ball_friction=law)
+    velocities = [random_velocity(rng, 0.1, 2.0) for _ in range(60)]
+    assert assert_equals_oracle(table, velocities, until=0.2)
 
 
 def test_cut_by_until_equals_the_oracle():

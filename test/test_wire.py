@@ -1,0 +1,94 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rclpy.serialization import deserialize_message, serialize_message
+
+from pool_sim_ros import conversions, wire
+from pool_sim_ros.protocol import COLLISION_COLUMNS
+
+NUMBERS = st.floats(width=64)
+STAMPS = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)
+COLUMNS = len(COLLISION_COLUMNS)
+
+
+def assert_same_bytes(written, message):
+    """Check byte by byte, except for the gaps before aligned fields, where ROS leaves anything.
+
+    A byte lies in a gap if the message means the same whatever it is.
+    """
+    expected = serialize_message(message)
+    assert len(written) == len(expected)
+    for index in np.flatnonzero(np.frombuffer(written, 'u1') != np.frombuffer(expected, 'u1')):
+        either = [expected[:index] + bytes([byte]) + expected[index + 1 :] for byte in (0, 165)]
+        meanings = {repr(deserialize_message(data, type(message))) for data in either}
+        assert len(meanings) == 1, f'byte {index} differs'
+        assert written[index] == 0
+
+
+def collisions_writer():
+    return wire.RowsWriter('collision', COLLISION_COLUMNS)
+
+
+def random_rows(seed, count, columns):
+    """Rows of any bit patterns: zeros of both signs, infinities and NaNs included."""
+    bits = np.random.default_rng(seed).integers(0, 2**64, (count, columns), dtype=np.uint64)
+    rows = bits.view(np.float64)
+    rows[0, 0] = (0.0, -0.0, np.inf, np.nan)[seed % 4]
+    return rows
+
+
+@given(
+    st.text(st.characters(codec='utf-8', exclude_characters='\0'), max_size=40),
+    st.lists(NUMBERS, min_size=1, max_size=40),
+    st.lists(st.tuples(STAMPS, st.integers(0, 2**32)), min_size=1, max_size=4),
+)
+def test_poses_are_the_bytes_that_ros_makes(frame_id, radii, frames):
+    writer = wire.PosesWriter(frame_id, radii)
+    for stamp, seed in frames:
+        positions = random_rows(seed, len(radii), 2)
+        message = conversions.to_poses(frame_id, stamp, positions, radii)
+        assert_same_bytes(writer.write(stamp, positions), message)
+
+
+@given(st.integers(1, 50), st.lists(st.integers(0, 2**32), min_size=1, max_size=4))
+def test_velocities_are_the_bytes_that_ros_makes(balls, seeds):
+    writer = wire.RowsWriter('ball', conversions.VELOCITY_COLUMNS)
+    for seed in seeds:
+        rows = random_rows(seed, balls, 2)
+        assert_same_bytes(writer.write(rows), conversions.to_velocities(rows))
+
+
+@given(st.lists(st.tuples(st.integers(1, 30), st.integers(0, 2**32)), min_size=1, max_size=8))
+def test_collisions_are_the_bytes_that_ros_makes_however_many_come(frames):
+    writer = collisions_writer()
+    for count, seed in frames:
+        rows = random_rows(seed, count, COLUMNS)
+        assert_same_bytes(writer.write(rows), conversions.to_collisions(rows))
+
+
+def test_more_shapes_than_are_kept():
+    writer = collisions_writer()
+    for count in [*range(1, wire.SHAPES_KEPT + 3), 1, 2, wire.SHAPES_KEPT]:
+        rows = random_rows(count, count, COLUMNS)
+        assert_same_bytes(writer.write(rows), conversions.to_collisions(rows))
+
+
+@given(STAMPS)
+def test_the_clock_is_the_bytes_that_ros_makes(stamp):
+    assert wire.clock_bytes(stamp) == serialize_message(conversions.to_clock(stamp))
+
+
+@pytest.mark.parametrize('order', ['C', 'F'])
+def test_rows_in_any_memory_order(order):
+    rows = np.array(random_rows(5, 3, COLUMNS), order=order)
+    writer = collisions_writer()
+    assert_same_bytes(writer.write(rows), conversions.to_collisions(rows))
+
+
+def test_what_was_written_does_not_change_afterwards():
+    writer = wire.PosesWriter('table', [0.1])
+    first = writer.write(1, np.array([[1.0, 2.0]]))
+    copy = bytes(bytearray(first))
+    writer.write(2, np.array([[3.0, 4.0]]))
+    assert first == copy
