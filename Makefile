@@ -2,7 +2,7 @@
 
 PYTHON ?= python3
 VENV ?= .venv
-EXTRAS = jazzy,test
+EXTRAS = jazzy,report,web,test
 PY = $(VENV)/bin/python
 
 # A sourced ROS installation must not mix with the wheels in the environment.
@@ -12,6 +12,9 @@ unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 VERSION := $(shell $(PYTHON) -c 'import sys; print("%d.%d" % sys.version_info[:2])' 2>/dev/null)
 CREATED = $(VENV)/.created-$(VERSION)
 INSTALLED = $(VENV)/.installed
+BENCH_INSTALLED = $(VENV)/.installed-bench
+BENCH_VENV = .venv-bench
+POOLTOOL = $(BENCH_VENV)/.installed
 SETUP_FILES = setup.py setup.cfg pyproject.toml package.xml pool_sim_ros/__init__.py \
 	$(wildcard config/* launch/* resource/*)
 
@@ -34,11 +37,12 @@ test: $(INSTALLED)
 	$(PY) -m ruff check .
 	$(PY) -m pytest
 
-bench: $(INSTALLED)
-	$(PY) -m pytest test/benchmark
+bench: $(BENCH_INSTALLED) $(POOLTOOL)
+	find pool_sim_ros test -name '*.nb[ic]' -delete
+	$(PY) -m pytest test/benchmark --figures docs/benchmarks.md --pooltool $(BENCH_VENV)/bin/python
 
 clean:
-	rm -rf $(VENV) build install log dist *.egg-info .pytest_cache .ruff_cache .hypothesis .benchmarks
+	rm -rf $(VENV) $(BENCH_VENV) build install log dist *.egg-info .pytest_cache .ruff_cache .hypothesis .benchmarks
 	find pool_sim_ros test -name __pycache__ -prune -exec rm -rf {} +
 
 setup: $(INSTALLED)
@@ -47,6 +51,22 @@ setup: $(INSTALLED)
 $(INSTALLED): $(CREATED) $(SETUP_FILES)
 	@echo 'Installing pool_sim_ros and what it needs into $(VENV); the first time takes a minute or two.'
 	@$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[$(EXTRAS)]'
+	@touch $@
+
+$(BENCH_INSTALLED): $(INSTALLED)
+	@$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
+	@touch $@
+
+# pooltool, which the benchmarks are compared with, in an environment of its own. One of its
+# requirements is a nightly build of a renderer; it is installed without, and plays just as well.
+$(POOLTOOL): test/benchmark/pooltool-requirements.txt test/benchmark/pooltool-itself.txt
+	@echo 'Installing pooltool into $(BENCH_VENV).'
+	@$(PYTHON) -m venv --clear $(BENCH_VENV)
+	@echo '*' > $(BENCH_VENV)/.gitignore
+	@$(BENCH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
+		-r test/benchmark/pooltool-requirements.txt
+	@$(BENCH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps \
+		-r test/benchmark/pooltool-itself.txt
 	@touch $@
 
 $(CREATED):

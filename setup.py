@@ -13,6 +13,8 @@ VERSION = re.search("__version__ = '(.*)'", Path(NAME, '__init__.py').read_text(
 COMMANDS = [
     'sim_node = pool_sim_ros.sim_node:main',
     'shot = pool_sim_ros.shot:main',
+    'replay = pool_sim_ros.replay:main',
+    'report = pool_sim_ros.report.command:main',
 ]
 
 # Only names that start with ros-jazzy- are bound to Jazzy: without it they are newer distributions.
@@ -64,7 +66,7 @@ setup(
     author_email='noreply@example.com',
     license='Apache-2.0',
     packages=find_packages(include=[NAME, f'{NAME}.*']),
-    package_data={'': ['py.typed', '*.csv']},
+    package_data={'': ['py.typed', '*.csv', 'templates/*', 'static/*']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
@@ -78,7 +80,9 @@ setup(
     install_requires=['numpy>=1.26', 'numba>=0.59'],
     extras_require={
         'jazzy': JAZZY,
-        'report': ['imageio-ffmpeg', 'matplotlib', 'tqdm'],
+        'report': ['imageio-ffmpeg', 'latex2mathml', 'matplotlib', 'pyyaml', 'tqdm'],
+        'web': ['aiohttp'],
+        'bench': ['pytest-benchmark', 'tqdm'],
         'test': [
             'catkin_pkg',
             'colcon-package-information',

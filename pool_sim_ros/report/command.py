@@ -1,0 +1,184 @@
+"""The command `report`: everything that the report hands in, made anew."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pool_sim_ros.report.errors import ReportError
+from pool_sim_ros.report.interrupts import Interrupts
+from pool_sim_ros.report.shots import SHOT_NUMBERS
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
+
+    from pool_sim_ros.report.played import PlayedShot
+    from pool_sim_ros.settings import Settings
+
+INTERRUPTED = 130
+"""Exit status after Ctrl-C, as shells have it."""
+
+INTEGRATORS = ('time_slice', 'event')
+"""Those of `pool_sim_ros.physics`, which takes a second to load: too long for --help."""
+
+
+def main(args: list[str] | None = None) -> int:
+    """Make the report; return the exit status."""
+    options = _parser().parse_args(args)
+    try:
+        with Interrupts() as interrupts:
+            _check_packages(options)
+            _make(options, interrupts)
+    except ReportError as error:
+        print(f'report: {error}', file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print('\nreport: interrupted; the files that are there are whole', file=sys.stderr)
+        return INTERRUPTED
+    return 0
+
+
+def _make(options: argparse.Namespace, interrupts: Interrupts) -> None:
+    from pool_sim_ros.report.files import write_text
+    from pool_sim_ros.report.log import format_log
+    from pool_sim_ros.report.played import aim, log_remark, play_shots, verdict
+    from pool_sim_ros.report.positions import format_positions
+
+    out, settings = options.out, _settings(options)
+    shots = list(_checking(play_shots(settings, sorted(set(options.shots))), interrupts))
+    entries = ((shot.number, shot.velocity, shot.final_positions.items()) for shot in shots)
+    log = format_log(entries, aim(settings.table), log_remark(settings))
+    write_text(out / 'output.log', log)
+    print(verdict(settings, shots))
+    files = ['output.log']
+    if not options.log_only:
+        write_text(out / 'positions.csv', format_positions(shots))
+        files += ['positions.csv', *_draw(options, settings, shots, interrupts)]
+    print(f'{out}: {", ".join(files)}')
+
+
+def _draw(
+    options: argparse.Namespace,
+    settings: Settings,
+    shots: list[PlayedShot],
+    interrupts: Interrupts,
+) -> list[str]:
+    """Make all that is to be looked at; return what to tell of it."""
+    import matplotlib
+
+    from pool_sim_ros.report import outputs, page
+    from pool_sim_ros.report.comparison import compare
+    from pool_sim_ros.report.files import write_text
+
+    # Not the user's own style.
+    matplotlib.rcdefaults()
+    out, table = options.out, settings.table
+    drawing = outputs.write_pictures(out, table, shots)
+    drawing = _bar(drawing, outputs.picture_count(shots), 'Pictures')
+    pictures = dict(_checking(drawing, interrupts))
+    made, files = [f'{len(pictures)} pictures in images'], ['output.log', 'positions.csv']
+    films = _films(out, shots, interrupts) if options.videos else {}
+    if films:
+        files.append(outputs.join_films(out, films.values()))
+        made.append(f'{len(films) + 1} films in videos')
+    comparisons = [
+        compare(table, shot.number, shot.printed)
+        for shot in _checking(_bar(shots, len(shots), 'Comparison'), interrupts)
+        if shot.printed
+    ]
+    content = page.Content(settings, shots, comparisons, pictures, films, files)
+    write_text(out / 'report.html', page.make_page(content))
+    return [*made, 'report.html']
+
+
+def _films(out: Path, shots: list[PlayedShot], interrupts: Interrupts) -> dict[int, str]:
+    """Make a film of each shot; return the number of the shot -> its path in `out`."""
+    from pool_sim_ros.report.films import frame_count
+    from pool_sim_ros.report.outputs import write_film
+
+    total = sum(frame_count(shot.trajectory.duration) for shot in shots)
+    with _bar(None, total, 'Films', unit='frame') as bar:
+
+        def on_frame() -> None:
+            interrupts.check()
+            bar.update()
+
+        return {shot.number: write_film(out, shot, on_frame=on_frame) for shot in shots}
+
+
+def _bar(steps: Iterable | None, total: int, title: str, unit: str = 'it') -> tqdm:
+    """Return a progress bar, on a terminal only."""
+    from tqdm import tqdm
+
+    return tqdm(steps, title, total, unit=unit, disable=None)
+
+
+def _checking(steps: Iterable, interrupts: Interrupts) -> Iterator:
+    """Yield what `steps` yields, up to an interrupt."""
+    interrupts.check()
+    for step in steps:
+        interrupts.check()
+        yield step
+
+
+def _settings(options: argparse.Namespace) -> Settings:
+    from pool_sim_ros.report.table_file import read_settings
+    from pool_sim_ros.settings import build_settings, default_values
+
+    settings = read_settings(options.table) if options.table else build_settings(default_values())
+    if options.integrator:
+        settings = replace(settings, report_integrator=options.integrator)
+    return settings
+
+
+def _check_packages(options: argparse.Namespace) -> None:
+    """Find out before the work begins whether all that it needs is installed."""
+    needed = {}
+    if options.table:
+        needed['yaml'] = 'PyYAML'
+    if not options.log_only:
+        needed |= {name: name for name in ('latex2mathml', 'matplotlib', 'tqdm')}
+        if options.videos:
+            needed['imageio_ffmpeg'] = 'imageio-ffmpeg'
+    missing = [package for module, package in needed.items() if find_spec(module) is None]
+    if missing:
+        raise ReportError(
+            f"needs {', '.join(missing)}, not installed here: pip install 'pool_sim_ros[report]'"
+        )
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='report',
+        description='Compute the four shots of the ME 212 Billiards Project Report and write what '
+        'it hands in: its log, the end positions, pictures and films of the shots, and one page, '
+        'report.html, with the equations, the results and what they are worth.',
+        epilog="Needs no ROS, but the extra 'report': pip install 'pool_sim_ros[report]'.",
+    )
+    parser.add_argument(
+        '--out', type=Path, default=Path('report'), metavar='FOLDER',
+        help='where to write; files of the same names are replaced (default: ./%(default)s)',
+    )
+    parser.add_argument(
+        '--shots', type=int, nargs='+', choices=SHOT_NUMBERS, default=SHOT_NUMBERS, metavar='N',
+        help='only these of the shots 1 to 4',
+    )
+    parser.add_argument(
+        '--integrator', choices=INTEGRATORS,
+        help="time_slice: the report's, which ends where it printed; event: the exact one "
+        "(default: the table file's report_integrator, or time_slice)",
+    )
+    parser.add_argument(
+        '--table', type=Path, metavar='FILE',
+        help="play on another table: a parameter file of sim_node, like config/report.yaml",
+    )
+    parser.add_argument(
+        '--no-videos', dest='videos', action='store_false', help='make no films: they take longest'
+    )
+    parser.add_argument('--log-only', action='store_true', help='write output.log and nothing else')
+    return parser

@@ -1,0 +1,80 @@
+"""How the print, time slicing and the exact integrator differ, and what the listing does to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pool_sim_ros.physics import Table, Trajectory, simulate
+from pool_sim_ros.report.log import INCH
+from pool_sim_ros.report.shots import cue_velocity
+
+SLICES = (1e-4, 1e-5, 2e-6, 1e-6)
+"""Slices to compare, s; the last is the report's."""
+
+STATED_E_CUE_BALL = 0.95
+"""`e_cn` of Listing 3, line 13: stated there, but not used."""
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """One of the report's shots, computed in different ways on the report's table.
+
+    Attributes
+    ----------
+    number : int
+        The shot.
+    printed : ndarray of shape (n, 2)
+        Where the report printed that the balls stop, inches.
+    exact : Trajectory
+    sliced : dict
+        Slice in s -> Trajectory.
+    with_e_cn : Trajectory
+        Time slicing with the cue ball's restitution that the property list states.
+    with_coulomb : Trajectory
+        Time slicing with friction between balls that opposes the slip of both.
+    """
+
+    number: int
+    printed: np.ndarray
+    exact: Trajectory
+    sliced: Mapping[float, Trajectory]
+    with_e_cn: Trajectory
+    with_coulomb: Trajectory
+
+
+def compare(
+    table: Table, number: int, printed: Mapping[str, tuple[float, float]]
+) -> Comparison:
+    """Compute a shot of the report in all ways; `printed` is label -> (x, y) in inches."""
+    velocity = cue_velocity(number, table)
+
+    def slicing(table: Table, time_slice: float = SLICES[-1]) -> Trajectory:
+        return simulate(table, velocity, integrator='time_slice', time_slice=time_slice)
+
+    return Comparison(
+        number,
+        np.array([printed[label] for label in table.labels]),
+        exact=simulate(table, velocity),
+        sliced={time_slice: slicing(table, time_slice) for time_slice in SLICES},
+        with_e_cn=slicing(replace(table, e_cue_ball=STATED_E_CUE_BALL)),
+        with_coulomb=slicing(replace(table, ball_friction='coulomb')),
+    )
+
+
+def final_inches(trajectory: Trajectory) -> np.ndarray:
+    """Return where the balls stopped, (n, 2) in inches."""
+    return trajectory.final_positions / INCH
+
+
+def greatest_difference(one: np.ndarray, other: np.ndarray) -> tuple[float, int]:
+    """Return how far apart two outcomes are at most in x or y, and the ball where that is.
+
+    Parameters
+    ----------
+    one, other : ndarray of shape (n, 2)
+    """
+    differences = np.abs(one - other).max(axis=1)
+    return float(differences.max()), int(differences.argmax())

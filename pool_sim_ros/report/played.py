@@ -1,0 +1,149 @@
+"""The report's shots, played on a table, beside what the report printed of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pool_sim_ros.physics import Table, Trajectory, report_table, simulate
+from pool_sim_ros.physics.simulate import REPORT_TIME_SLICE
+from pool_sim_ros.report.errors import ReportError
+from pool_sim_ros.report.log import inches, published_final_positions
+from pool_sim_ros.report.shots import attitude_to_nearest, cue_velocity, nearest_ball
+from pool_sim_ros.settings import Settings
+
+
+class ShotError(ReportError):
+    """A shot that cannot be played on this table."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlayedShot:
+    """One of the report's shots and its outcome.
+
+    Attributes
+    ----------
+    number : int
+        In the report, 1 to 4.
+    velocity : tuple of float
+        Of the cue ball, m/s.
+    trajectory : Trajectory
+    printed : dict or None
+        Where the report printed that the balls stop, label -> (x, y) in inches; None on another
+        table than the report's.
+    """
+
+    number: int
+    velocity: tuple[float, float]
+    trajectory: Trajectory
+    printed: dict[str, tuple[float, float]] | None
+
+    @property
+    def table(self) -> Table:
+        """The table that was played on."""
+        return self.trajectory.table
+
+    @property
+    def final_positions(self) -> dict[str, tuple[float, float]]:
+        """Where each ball stopped, label -> (x, y) in m."""
+        places = self.trajectory.final_positions.tolist()
+        return {label: tuple(xy) for label, xy in zip(self.table.labels, places, strict=True)}
+
+    @property
+    def equal_to_print(self) -> int:
+        """How many balls stopped where the report printed, to its last digit."""
+        places = self.final_positions
+        return sum(
+            (inches(places[label][0]), inches(places[label][1])) == xy
+            for label, xy in (self.printed or {}).items()
+        )
+
+
+def play_shots(settings: Settings, numbers: Iterable[int]) -> Iterator[PlayedShot]:
+    """Play shots of the report, one after the other.
+
+    Parameters
+    ----------
+    settings : Settings
+        The table, and the integrator and slice for the report's shots.
+    numbers : iterable of int
+        1 to 4.
+
+    Raises
+    ------
+    ShotError
+        Where shot 4 has nothing to aim at, or the balls move for longer than
+        ``max_shot_duration``.
+    """
+    table = settings.table
+    published = published_final_positions() if is_report_table(table) else {}
+    for number in numbers:
+        try:
+            velocity = cue_velocity(number, table)
+        except ValueError as error:
+            raise ShotError(f'shot {number}: {error}') from error
+        trajectory = simulate(
+            table,
+            velocity,
+            integrator=settings.report_integrator,
+            time_slice=settings.time_slice,
+            until=settings.max_shot_duration,
+        )
+        if not trajectory.complete:
+            limit = f'max_shot_duration, {settings.max_shot_duration:g} s'
+            raise ShotError(f'shot {number}: the balls move for longer than {limit}')
+        yield PlayedShot(number, velocity, trajectory, published.get(number))
+
+
+def is_report_table(table: Table) -> bool:
+    """Return whether balls move on this table as on the report's; colours do not matter."""
+    return _without_colors(table) == _without_colors(report_table())
+
+
+def deviations(settings: Settings) -> list[str]:
+    """Return in words all that differs from the run that the report printed; empty = nothing."""
+    found = []
+    if not is_report_table(settings.table):
+        found.append('another table')
+    if settings.report_integrator != 'time_slice':
+        found.append(f'integrator {settings.report_integrator}')
+    elif settings.time_slice != REPORT_TIME_SLICE:
+        found.append(f'slices of {settings.time_slice:g} s')
+    return found
+
+
+def verdict(settings: Settings, shots: Sequence[PlayedShot]) -> str:
+    """Return one sentence on how the end positions compare with the print."""
+    printed = sum(len(shot.printed or {}) for shot in shots)
+    if not printed:
+        return 'The report printed nothing for this table, so there is nothing to compare with.'
+    equal = sum(shot.equal_to_print for shot in shots)
+    differing = deviations(settings)
+    why = f'; the print is not of this run ({", ".join(differing)})' if differing else ''
+    return f'{equal} of {printed} end positions equal the printed ones to the last digit{why}.'
+
+
+def log_remark(settings: Settings) -> str | None:
+    """Return what the log says of a run that the report did not print; None for the report's."""
+    differing = deviations(settings)
+    return f'Not the run that the report printed: {", ".join(differing)}' if differing else None
+
+
+def aim(table: Table) -> tuple[str, float] | None:
+    """Return the ball that shot 4 is aimed at and its direction in rad; None for no such ball."""
+    if len(table.balls) < 2:
+        return None
+    return table.labels[nearest_ball(table)], attitude_to_nearest(table)
+
+
+def moved_balls(trajectory: Trajectory) -> np.ndarray:
+    """Return the indices of the balls that moved in a shot, (k,)."""
+    moving = trajectory.segments['speed'] > 0.0
+    return np.unique(trajectory.segments['ball'][moving])
+
+
+def _without_colors(table: Table) -> Table:
+    balls = tuple(replace(ball, color=(0.0, 0.0, 0.0)) for ball in table.balls)
+    return replace(table, balls=balls)

@@ -1,0 +1,27 @@
+"""Fixtures for the report's tests: the four shots, computed once."""
+
+from dataclasses import replace
+
+import pytest
+
+from pool_sim_ros.report.played import play_shots
+from pool_sim_ros.settings import build_settings, default_values
+
+
+@pytest.fixture(scope='session')
+def settings():
+    """The settings of the report's own run."""
+    return build_settings(default_values())
+
+
+@pytest.fixture(scope='session')
+def shots(settings):
+    """The four shots as the report has them, by number."""
+    return {shot.number: shot for shot in play_shots(settings, (1, 2, 3, 4))}
+
+
+@pytest.fixture(scope='session')
+def other_settings(settings):
+    """The settings of a table that the report knows nothing of: two balls less."""
+    table = replace(settings.table, balls=settings.table.balls[:9])
+    return replace(settings, table=table, report_integrator='event')

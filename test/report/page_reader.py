@@ -1,0 +1,78 @@
+"""Reads a page as a person would: its tables, pictures, links and words."""
+
+from html.parser import HTMLParser
+
+VOID = {'meta', 'img', 'br', 'mspace'}
+
+
+class Page(HTMLParser):
+    """A parsed page.
+
+    Attributes
+    ----------
+    tables : dict
+        Caption -> rows of cells, the head first.
+    bold : dict
+        Caption -> texts of the cells that are marked.
+    links, pictures : list
+        Of `href`s; of (source, description).
+    text : str
+    """
+
+    def __init__(self, html):
+        super().__init__()
+        self.tables, self.bold, self.links, self.pictures = {}, {}, [], []
+        self.text, self._open, self._rows, self._marked = '', [], [], False
+        self.feed(html)
+        self.close()
+        assert not self._open, f'never closed: {self._open}'
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        if tag not in VOID:
+            self._open.append(tag)
+        if tag == 'table':
+            self._rows, self._bold, self._caption = [], [], ''
+        elif tag == 'tr':
+            self._rows.append([])
+        elif tag in ('td', 'th'):
+            self._rows[-1].append('')
+            self._marked = attrs.get('class') == 'off'
+        elif tag == 'img':
+            self.pictures.append((attrs['src'], attrs['alt']))
+        for name in ('href', 'src'):
+            if tag != 'img' and name in attrs:
+                self.links.append(attrs[name])
+
+    def handle_endtag(self, tag):
+        if tag in VOID:
+            return
+        assert self._open.pop() == tag
+        if tag == 'td' and self._marked:
+            self._bold.append(self._rows[-1][-1])
+        if tag == 'table':
+            assert self._caption not in self.tables
+            self.tables[self._caption], self.bold[self._caption] = self._rows, self._bold
+
+    def handle_startendtag(self, tag, attrs):
+        if tag in VOID:
+            self.handle_starttag(tag, attrs)
+
+    def handle_data(self, data):
+        if 'style' in self._open:
+            return
+        self.text += data
+        if 'caption' in self._open:
+            self._caption += data
+        elif self._open and {'td', 'th'} & set(self._open):
+            self._rows[-1][-1] += data
+
+    def table(self, words):
+        """Return the rows below the head of the one table whose caption has these words."""
+        (found,) = (rows for caption, rows in self.tables.items() if words in caption)
+        return found[1:]
+
+
+def numbers(cell):
+    """Return the numbers in a cell, as in ``−1.20, 3.40``."""
+    return tuple(float(part) for part in cell.replace('\N{MINUS SIGN}', '-').split(','))
