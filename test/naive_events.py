@@ -2,7 +2,8 @@
 
 The rules for several contacts at one instant are those of the project's design: all contacts
 that touch and close take part, their normal impulses solve one linear complementarity problem,
-Coulomb friction follows, and what closes too slowly is separated once instead of bouncing.
+Coulomb friction follows, and what closes too slowly is separated at V_MIN instead of bouncing,
+with the friction of that push.
 """
 
 import itertools
@@ -264,5 +265,6 @@ def resolve(table, x, v):
         if impulses is None:
             impulses = separation_impulses(contacts, v, masses, 0.0)
         v = push(contacts, impulses, v, masses)
+        v = cluster_friction(contacts, impulses, v, masses)
         took_part += [which for _, which in slow]
     return v, took_part

@@ -47,7 +47,7 @@ class Cluster(NamedTuple):
 
     contacts: np.ndarray
     members: np.ndarray
-    is_member: np.ndarray
+    place: np.ndarray  # by ball: where it is among the members; -1 for no member
     vx: np.ndarray
     vy: np.ndarray
     before_x: np.ndarray
@@ -63,7 +63,7 @@ def new_cluster(n: int) -> Cluster:
     return Cluster(
         np.zeros(7 * n, CONTACT),
         np.zeros(n, np.int32),
-        np.zeros(n, np.bool_),
+        np.full(n, -1, np.int32),
         *(np.zeros(n) for _ in range(5)),
     )
 
@@ -71,9 +71,9 @@ def new_cluster(n: int) -> Cluster:
 @kernel
 def join(balls, world, cluster, members, ball, now):
     """Add a ball to the cluster unless it is in; return how many there are then."""
-    if cluster.is_member[ball]:
+    if cluster.place[ball] >= 0:
         return members
-    cluster.is_member[ball] = True
+    cluster.place[ball] = members
     cluster.members[members] = ball
     speed = speed_at(balls[ball], now, world.deceleration)
     cluster.vx[ball] = balls[ball].ux * speed
@@ -91,11 +91,17 @@ def closing_speed(cluster, a, b, nx, ny):
 
 
 @kernel
-def add_contact(cluster, count, a, b, nx, ny, closing):
-    """Append a contact, of two balls the lower first; return how many there are then."""
-    contact = cluster.contacts[count]
+def add_contact(cluster, count, a, b, nx, ny, slowest):
+    """Append a contact, of two balls the lower first, if it closes faster than `slowest`, m/s.
+
+    Returns how many there are then.
+    """
     if b >= 0 and b < a:
         a, b, nx, ny = b, a, -nx, -ny
+    closing = closing_speed(cluster, a, b, nx, ny)
+    if not closing > slowest:
+        return count
+    contact = cluster.contacts[count]
     contact.a, contact.b = a, b
     contact.nx, contact.ny = nx, ny
     contact.closing = closing
@@ -104,7 +110,10 @@ def add_contact(cluster, count, a, b, nx, ny, closing):
 
 @kernel
 def gather(balls, world, cells, cluster, a, b, now, slowest):
-    """Collect the contacts of this instant that hang together with that of `a` and `b`.
+    """Collect the contacts of this instant among all that hangs together with a contact.
+
+    What touches hangs together, whether it closes or not: one contact's push may reach the next
+    one within the instant, and which is resolved with which must not depend on their order.
 
     Parameters
     ----------
@@ -114,16 +123,16 @@ def gather(balls, world, cells, cluster, a, b, now, slowest):
     cluster : Cluster
         Filled.
     a, b : int
-        The contact that is due: a ball, and a ball or a cushion. It is taken in any case.
+        The contact that is due: a ball, and a ball or a cushion.
     now : float
         s.
     slowest : float
-        Other contacts take part where they close faster than this, m/s.
+        Contacts take part where they close faster than this, m/s.
 
     Returns
     -------
     contacts, members : int
-        How many there are of each.
+        How many contacts take part, and how many balls are in them.
     """
     members = join(balls, world, cluster, 0, a, now)
     if b >= 0:
@@ -132,58 +141,56 @@ def gather(balls, world, cells, cluster, a, b, now, slowest):
     done = 0
     while done < members:
         i = cluster.members[done]
-        done += 1
-        count = gather_cushions(balls, world, cluster, count, i, a, b, now, slowest)
-        xi, yi = position_at(balls[i], now, world.deceleration)
-        at_rest = balls[i].speed == 0.0
+        x, y = position_at(balls[i], now, world.deceleration)
+        for cushion in range(4):
+            if cushion_gap(world, x, y, balls[i].radius, cushion) <= TOUCHING:
+                nx, ny = cushion_normal(cushion)
+                count = add_contact(cluster, count, i, CUSHION_X0 - cushion, nx, ny, slowest)
         for m in range(neighbours(balls, cells, i)):
             k = cells.near[m]
-            if k == i or (at_rest and balls[k].speed == 0.0 and slowest >= 0.0):
+            if k == i or 0 <= cluster.place[k] < done:
                 continue
             xk, yk = position_at(balls[k], now, world.deceleration)
-            dx, dy = xk - xi, yk - yi
+            dx, dy = xk - x, yk - y
             near = balls[i].radius + balls[k].radius + TOUCHING
-            due = (i == a and k == b) or (i == b and k == a)
-            if not due and dx * dx + dy * dy > near * near:
-                continue
-            if was_visited(cluster, done - 1, k):
-                continue
-            nx, ny = contact_normal(dx, dy)
-            speed = speed_at(balls[k], now, world.deceleration)
-            closing = cluster.vx[i] * nx + cluster.vy[i] * ny
-            closing -= speed * (balls[k].ux * nx + balls[k].uy * ny)
-            if due or closing > slowest:
+            if dx * dx + dy * dy <= near * near:
                 members = join(balls, world, cluster, members, k, now)
-                count = add_contact(cluster, count, i, k, nx, ny, closing)
+                nx, ny = contact_normal(dx, dy)
+                count = add_contact(cluster, count, i, k, nx, ny, slowest)
+        done += 1
+    return count, keep_those_in_contact(cluster, count, members)
+
+
+@kernel
+def take_alone(balls, world, cluster, a, b, now):
+    """Collect only the contact of ball `a` with `b`, even if rounding has it part already."""
+    members = join(balls, world, cluster, 0, a, now)
+    nx, ny = cushion_normal(CUSHION_X0 - b)
+    if b >= 0:
+        members = join(balls, world, cluster, members, b, now)
+        xa, ya = position_at(balls[a], now, world.deceleration)
+        xb, yb = position_at(balls[b], now, world.deceleration)
+        nx, ny = contact_normal(xb - xa, yb - ya)
+    count = add_contact(cluster, 0, a, b, nx, ny, -np.inf)
+    return count, keep_those_in_contact(cluster, count, members)
+
+
+@kernel
+def keep_those_in_contact(cluster, count, members):
+    """Leave only those members that take part in a contact; return how many there are."""
     for m in range(members):
-        cluster.is_member[cluster.members[m]] = False
-    return count, members
-
-
-@kernel
-def was_visited(cluster, visited, ball):
-    """Return whether a member's contacts have been collected already."""
-    if not cluster.is_member[ball]:
-        return False
-    for m in range(visited):
-        if cluster.members[m] == ball:
-            return True
-    return False
-
-
-@kernel
-def gather_cushions(balls, world, cluster, count, i, a, b, now, slowest):
-    """Collect the contacts of member `i` with the cushions; return how many there are then."""
-    x, y = position_at(balls[i], now, world.deceleration)
-    for cushion in range(4):
-        partner = CUSHION_X0 - cushion
-        due = i == a and partner == b
-        if due or cushion_gap(world, x, y, balls[i].radius, cushion) <= TOUCHING:
-            nx, ny = cushion_normal(cushion)
-            closing = cluster.vx[i] * nx + cluster.vy[i] * ny
-            if due or closing > slowest:
-                count = add_contact(cluster, count, i, partner, nx, ny, closing)
-    return count
+        cluster.pushes[cluster.members[m]] = 0.0
+        cluster.place[cluster.members[m]] = -1
+    for c in range(count):
+        cluster.pushes[cluster.contacts[c].a] = 1.0
+        if cluster.contacts[c].b >= 0:
+            cluster.pushes[cluster.contacts[c].b] = 1.0
+    kept = 0
+    for m in range(members):
+        if cluster.pushes[cluster.members[m]] > 0.0:
+            cluster.members[kept] = cluster.members[m]
+            kept += 1
+    return kept
 
 
 @kernel

@@ -1,7 +1,7 @@
 """Resolve what is due: one contact in closed form, several of one instant together."""
 
 from pool_sim_ros.physics.cells import neighbours
-from pool_sim_ros.physics.cluster import TOUCHING, gather, move_as_one, resolve
+from pool_sim_ros.physics.cluster import TOUCHING, gather, move_as_one, resolve, take_alone
 from pool_sim_ros.physics.contact import (
     collide_balls,
     collide_cushion,
@@ -40,7 +40,7 @@ LAST_ROUND = 250
 def stands_alone(balls, world, cells, a, b, now):
     """Return whether the contact of moving ball `a` with `b` is the plain case.
 
-    That is: nothing else can collide with either at this instant, and neither rattles.
+    That is: nothing else touches either at this instant, and neither rattles.
     """
     if rounds_at(balls, a, b, now) > MAX_ROUNDS:
         return False
@@ -51,7 +51,7 @@ def stands_alone(balls, world, cells, a, b, now):
 
 @inlined
 def is_touched(balls, world, cells, i, but, now):
-    """Return whether anything but `but`, a ball or a cushion, can collide with ball `i` now."""
+    """Return whether anything but `but`, a ball or a cushion, touches ball `i` now."""
     ball = balls[i]
     moves = ball.speed > 0.0
     x, y = position_at(ball, now, world.deceleration)
@@ -60,12 +60,11 @@ def is_touched(balls, world, cells, i, but, now):
     for m in range(neighbours(balls, cells, i)):
         k = cells.near[m]
         other = balls[k]
-        if moves or other.speed > 0.0:
-            xk, yk = position_at(other, now, world.deceleration)
-            near = ball.radius + other.radius + TOUCHING
-            close = (xk - x) * (xk - x) + (yk - y) * (yk - y) <= near * near
-            if close and k != i and k != but:
-                return True
+        xk, yk = position_at(other, now, world.deceleration)
+        near = ball.radius + other.radius + TOUCHING
+        close = (xk - x) * (xk - x) + (yk - y) * (yk - y) <= near * near
+        if close and k != i and k != but:
+            return True
     return False
 
 
@@ -177,9 +176,10 @@ def gather_crowd(balls, world, cells, cluster, a, b, now):
     if rounds_at(balls, a, b, now) > MAX_ROUNDS:
         return gather(balls, world, cells, cluster, a, b, now, -1e300)
     count, members = gather(balls, world, cells, cluster, a, b, now, V_MIN)
-    for c in range(count):
-        if cluster.contacts[c].closing <= V_MIN:
-            return gather(balls, world, cells, cluster, a, b, now, 0.0)
+    if count == 0:
+        count, members = gather(balls, world, cells, cluster, a, b, now, 0.0)
+    if count == 0:
+        count, members = take_alone(balls, world, cluster, a, b, now)
     return count, members
 
 

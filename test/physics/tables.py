@@ -63,6 +63,14 @@ def random_velocity(rng, slowest=0.2, fastest=6.0):
     return speed * np.array([math.cos(angle), math.sin(angle)])
 
 
+def random_shots(seed, count, law, balls=6, fastest=3.0, **fields):
+    """Yield tables with balls that all move, and their velocities."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        table = random_table(rng, balls, law, **fields)
+        yield table, np.array([random_velocity(rng, 0.1, fastest) for _ in table.balls])
+
+
 def report_shots():
     """Return the four cue velocities of Listing 2, lines 60 to 65."""
     cue, nearest = (np.array(ball.position) for ball in report_table().balls[:2])

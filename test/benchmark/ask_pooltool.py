@@ -1,0 +1,117 @@
+"""Play the shots of a table with pooltool, in a process and an environment of its own."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from pool_sim_ros.physics import Table
+
+SCRIPT = Path(__file__).with_name('play_pooltool.py')
+MOST_EVENTS = 20_000
+TIMEOUT = 600.0
+ENGINES = ('nearest', 'default')
+
+
+@dataclass(frozen=True)
+class Pooltool:
+    """pooltool under the interpreter `python`; `home` is the folder it takes settings from."""
+
+    python: Path
+    home: Path
+
+    def play(
+        self, table: Table, shots: Sequence, rounds: int = 0, engine: str = 'nearest'
+    ) -> dict:
+        """Play shots on a table as near to ours as pooltool's model allows.
+
+        pooltool's balls all have one mass, that of the last ball here, and a restitution each, of
+        which a pair has the mean. They start rolling without slipping.
+
+        Parameters
+        ----------
+        table : Table
+        shots : sequence of array_like of shape (2,) or (n, 2)
+            Velocities of the cue ball alone or of all balls, m/s.
+        rounds : int, optional
+            How often to play all shots with a stop watch.
+        engine : {'nearest', 'default'}, optional
+            The models nearest to ours, or those that pooltool takes when nothing is said.
+
+        Returns
+        -------
+        dict
+            `shots`: for each its `error` or None, `kinds` (how many events of each),
+            `duration`, `positions`, `velocities`. `seconds`: one time per round, for all shots.
+
+        Raises
+        ------
+        RuntimeError
+            Where the process fails; what it printed.
+        """
+        request = described(table)
+        request['shots'] = [for_every_ball(table, shot) for shot in shots]
+        request.update(rounds=rounds, engine=engine, max_events=MOST_EVENTS)
+        return self._ask(request)
+
+    def versions(self) -> dict[str, str]:
+        """Return the versions of pooltool and of the numba that it runs on."""
+        code = (
+            'import json; from importlib.metadata import version as v;'
+            "print(json.dumps({'pooltool': v('pooltool-billiards'), 'its numba': v('numba')}))"
+        )
+        return json.loads(self._run(['-c', code], ''))
+
+    def _ask(self, request: dict) -> dict:
+        return json.loads(self._run([str(SCRIPT)], json.dumps(request)))
+
+    def _run(self, arguments: list[str], text: str) -> str:
+        done = subprocess.run(
+            [str(self.python), *arguments],
+            input=text,
+            capture_output=True,
+            text=True,
+            timeout=TIMEOUT,
+            env=self._environment(),
+        )
+        if done.returncode:
+            raise RuntimeError(f'pooltool under {self.python}: {done.stderr.strip()}')
+        return done.stdout
+
+    def _environment(self) -> dict[str, str]:
+        mine = ('PYTHONPATH', 'LD_LIBRARY_PATH', '_ROS_WHEELS_BOOTSTRAP_COMPLETE')
+        kept = {name: value for name, value in os.environ.items() if name not in mine}
+        return {**kept, 'HOME': str(self.home)}
+
+
+def described(table: Table) -> dict:
+    """Return what pooltool is told of a table."""
+    mass = table.balls[-1].mass
+    # The mean of two balls' restitutions is then e_cue_ball or e_ball_ball, as it must be.
+    cue = 2.0 * table.e_cue_ball - table.e_ball_ball
+    balls = [
+        {
+            'mass': mass,
+            'radius': ball.radius,
+            'position': ball.position,
+            'restitution': cue if ball.is_cue else table.e_ball_ball,
+        }
+        for ball in table.balls
+    ]
+    names = ('length', 'width', 'mu_ball_surface', 'mu_ball_ball', 'mu_ball_cushion')
+    fields = {name: getattr(table, name) for name in (*names, 'e_ball_cushion', 'gravity')}
+    return {**fields, 'balls': balls}
+
+
+def for_every_ball(table: Table, velocities) -> list[list[float]]:
+    """Return velocities of all balls, the others at rest where only the cue ball's is given."""
+    all_balls = np.zeros((len(table.balls), 2))
+    given = np.atleast_2d(np.asarray(velocities, dtype=float))
+    all_balls[: len(given)] = given
+    return all_balls.tolist()
