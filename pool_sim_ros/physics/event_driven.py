@@ -29,7 +29,7 @@ from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
 
 FIRST_ROOM = 64
-"""Events that a log holds before it is first enlarged; most shots have fewer."""
+"""Events beyond one a ball that a log holds before it is enlarged; most shots have fewer."""
 
 
 def play(table: Table, at_rest: np.ndarray, velocities: np.ndarray, until: float) -> Trajectory:
@@ -37,7 +37,7 @@ def play(table: Table, at_rest: np.ndarray, velocities: np.ndarray, until: float
     balls, cells = laid_out(table, at_rest)
     n = len(balls)
     schedule = new_schedule(n)
-    log = new_log(FIRST_ROOM, FIRST_ROOM + n)
+    log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n)
     cluster = new_cluster(n)
     start(balls, table.world, cells, schedule, velocities, log)
     while not run(balls, table.world, cells, schedule, cluster, until, log):

@@ -154,8 +154,7 @@ def test_touching_balls_all_in_motion_equal_the_plain_loop(e):
         velocities = rng.normal(size=(4, 2))
         twin = naive_events.event_driven(table, velocities, until=1e-6)
         shot = simulate(table, velocities, until=1e-6)
-        # What closes at less than 1e-4 m/s after some rounds may be parted at this speed or not.
-        assert np.abs(shot.final_velocities - twin.velocities).max() < 1e-3
+        assert np.abs(shot.final_velocities - twin.velocities).max() < 1e-9
 
 
 def test_balls_that_touch_at_rest_do_nothing():

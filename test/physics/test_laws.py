@@ -1,4 +1,4 @@
-"""What holds in every shot: energy, momentum, restitution, no ball in another; some cases by hand."""
+"""What holds in every shot: energy, momentum, restitution, no overlap; some cases by hand."""
 
 import dataclasses
 import itertools

@@ -1,4 +1,4 @@
-"""An image of a table gives the image of the motion, and the numbering of the balls is no matter."""
+"""An image of a table gives the image of the motion; the numbering of the balls is no matter."""
 
 import dataclasses
 

@@ -155,3 +155,15 @@ def test_results_do_not_share_memory_with_the_input():
     start = shot.positions(0.0)
     positions[:] = 0.0
     np.testing.assert_array_equal(shot.positions(0.0), start)
+
+
+def test_what_is_kept_is_in_proportion_to_what_happened():
+    """A log is enlarged by doubling; its two parts must not swell each other."""
+    side = 30
+    places = [(0.06 + 0.12 * i, 0.06 + 0.12 * j) for i in range(side) for j in range(side)]
+    table = table_of(places, length=0.12 * side, width=0.12 * side)
+    velocities = np.random.default_rng(8).normal(size=(len(places), 2))
+    shot = simulate(table, velocities, until=0.3)
+    assert len(shot.events) > 2 * len(places)
+    for kept in (shot.events, shot.segments):
+        assert kept.base.nbytes < 8 * kept.nbytes
