@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from tables import LAWS, random_table, random_velocity
+from tables import LAWS, random_table, random_velocity, table_of
 
 from pool_sim_ros.physics import report_table, simulate
 
