@@ -2,7 +2,7 @@
 
 PYTHON ?= python3
 VENV ?= .venv
-EXTRAS = jazzy,report,web,test
+EXTRAS = jazzy,report,web,record,test
 PY = $(VENV)/bin/python
 
 # A sourced ROS installation must not mix with the wheels in the environment.
@@ -14,14 +14,16 @@ CREATED = $(VENV)/.created-$(VERSION)
 INSTALLED = $(VENV)/.installed
 BENCH_INSTALLED = $(VENV)/.installed-bench
 BENCH_VENV = .venv-bench
-POOLTOOL = $(BENCH_VENV)/.installed
+POOLTOOL_VERSION = 0.6.0
+POOLTOOL = $(BENCH_VENV)/.installed-$(POOLTOOL_VERSION)
 SETUP_FILES = setup.py setup.cfg pyproject.toml package.xml pool_sim_ros/__init__.py \
 	$(wildcard config/* launch/* resource/*)
 
-.PHONY: help demo test bench clean setup
+.PHONY: help demo play test bench clean setup
 
 help:
 	@echo 'make demo    play the report'\''s four shots on a simulated table and compare with its log'
+	@echo 'make play    start the node and a page in the browser to play on it; Ctrl-C ends both'
 	@echo 'make test    run the linter and the whole test suite'
 	@echo 'make bench   run the benchmarks'
 	@echo 'make setup   only create $(VENV) and install everything there'
@@ -31,6 +33,9 @@ help:
 demo: $(INSTALLED)
 	@$(PY) -m pool_sim_ros.demo
 
+play: $(INSTALLED)
+	@$(PY) -m pool_sim_ros.play
+
 # numba's cache does not notice an edit in a module that a kernel imports.
 test: $(INSTALLED)
 	find pool_sim_ros test -name '*.nb[ic]' -delete
@@ -39,7 +44,9 @@ test: $(INSTALLED)
 
 bench: $(BENCH_INSTALLED) $(POOLTOOL)
 	find pool_sim_ros test -name '*.nb[ic]' -delete
-	$(PY) -m pytest test/benchmark --figures docs/benchmarks.md --pooltool $(BENCH_VENV)/bin/python
+	$(PY) test/benchmark/pooltool_limits.py --pooltool $(BENCH_VENV)/bin/python --write docs/pooltool.md
+	$(PY) -m pytest test/benchmark --pooltool $(BENCH_VENV)/bin/python \
+		--benchmark-columns=median,iqr,rounds --figures docs/benchmarks.md
 
 clean:
 	rm -rf $(VENV) $(BENCH_VENV) build install log dist *.egg-info .pytest_cache .ruff_cache .hypothesis .benchmarks
@@ -57,16 +64,16 @@ $(BENCH_INSTALLED): $(INSTALLED)
 	@$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
 	@touch $@
 
-# pooltool, which the benchmarks are compared with, in an environment of its own. One of its
-# requirements is a nightly build of a renderer; it is installed without, and plays just as well.
-$(POOLTOOL): test/benchmark/pooltool-requirements.txt test/benchmark/pooltool-itself.txt
-	@echo 'Installing pooltool into $(BENCH_VENV).'
+# pooltool, which the benchmarks compare with, in an environment of its own; --no-deps because it
+# asks for a build of its renderer that PyPI does not have.
+$(POOLTOOL): test/benchmark/pooltool-requirements.txt
+	@echo 'Installing pooltool $(POOLTOOL_VERSION) into $(BENCH_VENV).'
 	@$(PYTHON) -m venv --clear $(BENCH_VENV)
 	@echo '*' > $(BENCH_VENV)/.gitignore
 	@$(BENCH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
 		-r test/benchmark/pooltool-requirements.txt
 	@$(BENCH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps \
-		-r test/benchmark/pooltool-itself.txt
+		pooltool-billiards==$(POOLTOOL_VERSION)
 	@touch $@
 
 $(CREATED):

@@ -26,9 +26,7 @@ class Pooltool:
     python: Path
     home: Path
 
-    def play(
-        self, table: Table, shots: Sequence, rounds: int = 0, engine: str = 'nearest'
-    ) -> dict:
+    def play(self, table: Table, shots: Sequence, rounds: int = 0, engine: str = 'nearest') -> dict:
         """Play shots on a table as near to ours as pooltool's model allows.
 
         pooltool's balls all have one mass, that of the last ball here, and a restitution each, of

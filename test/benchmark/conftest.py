@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from benchmark.ask_pooltool import Pooltool
 from benchmark.cores import cores
-from benchmark.results import Results, write_between_marks
+from benchmark.results import Results, around_marks, write_between_marks
 
 PROJECT = Path(__file__).resolve().parents[2]
 RESULTS = pytest.StashKey[Results]()
@@ -24,6 +24,12 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     config.stash[RESULTS] = Results()
+    file = config.getoption('--figures')
+    if file is not None:
+        try:
+            around_marks(file)
+        except (OSError, ValueError) as error:
+            raise pytest.UsageError(f'--figures: {error}') from None
 
 
 def pytest_terminal_summary(terminalreporter, exitstatus, config):
@@ -33,13 +39,11 @@ def pytest_terminal_summary(terminalreporter, exitstatus, config):
     terminalreporter.write_line(results.markdown())
     if file is None:
         return
-    if exitstatus or terminalreporter.stats.get('skipped'):
+    left_out = any(terminalreporter.stats.get(kind) for kind in ('skipped', 'deselected'))
+    if exitstatus or left_out:
         terminalreporter.write_line(f'{file} is left as it was: not everything was measured.')
         return
-    try:
-        write_between_marks(file, results.markdown())
-    except (OSError, ValueError) as error:
-        raise pytest.UsageError(str(error)) from None
+    write_between_marks(file, results.markdown())
 
 
 @pytest.fixture(scope='session')

@@ -104,8 +104,12 @@ def main() -> int:
     arguments = parser.parse_args()
     if not arguments.pooltool.exists():
         parser.error(f'--pooltool: {arguments.pooltool} does not exist; `make bench` creates it')
-    with tempfile.TemporaryDirectory() as home:
-        table = compared(Pooltool(arguments.pooltool, Path(home)))
+    try:
+        with tempfile.TemporaryDirectory() as home:
+            table = compared(Pooltool(arguments.pooltool, Path(home)))
+    except RuntimeError as error:
+        print(str(error).splitlines()[-1], file=sys.stderr)
+        return 1
     print(table)
     if arguments.write:
         try:

@@ -110,12 +110,17 @@ def section_order(section: str) -> int:
 
 def write_between_marks(file: Path, table: str) -> None:
     """Put the table between the marks in `file`; raise ValueError where they are missing."""
-    text = file.read_text()
-    head, begin, rest = text.partition(BEGIN)
+    head, tail = around_marks(file)
+    file.write_text(f'{head}{BEGIN}\n{table}\n{END}{tail}')
+
+
+def around_marks(file: Path) -> tuple[str, str]:
+    """Return what stands before and after the marks; raise ValueError where they are missing."""
+    head, begin, rest = file.read_text().partition(BEGIN)
     _, end, tail = rest.partition(END)
     if not begin or not end:
         raise ValueError(f'{file}: must contain the lines {BEGIN} and {END}')
-    file.write_text(f'{head}{begin}\n{table}\n{end}{tail}')
+    return head, tail
 
 
 def machine() -> str:

@@ -1,4 +1,4 @@
-"""How fast the node is: one row for each promise. Figures are printed, never asserted.
+"""How fast the node is: one row for each promise.
 
     python -m pytest test/benchmark/test_bench_node.py
 
@@ -35,12 +35,11 @@ ROUNDS = 3
 
 
 @pytest.fixture
-def tell(capsys):
-    """Print a row."""
+def tell(results):
+    """Add a row; beside the figure the load, from which every row but the first two suffers."""
 
     def tell(what, figure, target):
-        with capsys.disabled():
-            print(f'\n| {what} | {figure} | {target} | load {os.getloadavg()[0]:.1f} |', end='')
+        results.note('The node', what, f'{figure} (load {os.getloadavg()[0]:.1f})', target)
 
     return tell
 

@@ -9,8 +9,7 @@ FIRST_SHOT = (
     'from pool_sim_ros.physics import report_table, simulate; simulate(report_table(), (-4.0, 0.0))'
 )
 EVERYTHING = (
-    'from pool_sim_ros.physics import compile_kernels, report_table;'
-    'compile_kernels(report_table())'
+    'from pool_sim_ros.physics import compile_kernels, report_table;compile_kernels(report_table())'
 )
 
 
@@ -29,9 +28,7 @@ def test_warm_cache(results):
 
 
 def test_cold_cache(results, tmp_path):
-    seconds = [
-        seconds_of(FIRST_SHOT, NUMBA_CACHE_DIR=str(tmp_path / str(k))) for k in range(3)
-    ]
+    seconds = [seconds_of(FIRST_SHOT, NUMBA_CACHE_DIR=str(tmp_path / str(k))) for k in range(3)]
     what = 'process, imports, first `simulate()`, nothing compiled yet'
     results.add(SECTION, what, seconds, target='20 s')
 
