@@ -15,6 +15,8 @@ COMMANDS = [
     'shot = pool_sim_ros.shot:main',
     'replay = pool_sim_ros.replay:main',
     'report = pool_sim_ros.report.command:main',
+    'web_view = pool_sim_ros.web_view.command:main',
+    'record_shot = pool_sim_ros.record_shot:main',
 ]
 
 # Only names that start with ros-jazzy- are bound to Jazzy: without it they are newer distributions.
@@ -82,15 +84,18 @@ setup(
         'jazzy': JAZZY,
         'report': ['imageio-ffmpeg', 'latex2mathml', 'matplotlib', 'pyyaml', 'tqdm'],
         'web': ['aiohttp'],
+        'record': ['rosbags'],
         'bench': ['pytest-benchmark', 'tqdm'],
         'test': [
             'catkin_pkg',
             'colcon-package-information',
             'colcon-ros',
             'hypothesis',
+            'mcap',
             'mpmath',
             'packaging',
             'pip>=22.3',  # its option --python
+            'playwright',  # drives the Chromium that the system has
             'pytest>=8',
             'ruff',
             'setuptools>=70.1',  # makes wheels by itself

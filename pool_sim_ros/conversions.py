@@ -7,13 +7,13 @@ from collections.abc import Sequence
 
 import numpy as np
 from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import Pose, PoseArray, Twist, Vector3
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension, String
 
-from pool_sim_ros.protocol import COLLISION_COLUMNS
-
-VELOCITY_COLUMNS = ('vx', 'vy')
+from pool_sim_ros.health import Report
+from pool_sim_ros.protocol import COLLISION_COLUMNS, VELOCITY_COLUMNS
 
 _SECOND_NS = 1_000_000_000
 
@@ -89,6 +89,20 @@ def from_rows(message: Float64MultiArray) -> np.ndarray:
     """Return the rows of a message that `to_velocities` or `to_collisions` made."""
     rows, columns = (dimension.size for dimension in message.layout.dim)
     return np.array(message.data, dtype=float).reshape(rows, columns)
+
+
+def to_diagnostics(name: str, stamp: int, report: Report) -> DiagnosticArray:
+    """Return how the node of this full name is doing, at a sim time in ns."""
+    status = DiagnosticStatus(
+        level=DiagnosticStatus.WARN if report.warning else DiagnosticStatus.OK,
+        name=f'{name}: simulation',
+        message=report.warning or 'running',
+        hardware_id=name,
+        values=[KeyValue(key=key, value=value) for key, value in report.values.items()],
+    )
+    message = DiagnosticArray(status=[status])
+    message.header.stamp = to_time(stamp)
+    return message
 
 
 def from_twist(twist: Twist) -> tuple[tuple[float, ...], tuple[float, ...]]:

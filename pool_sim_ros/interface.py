@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseArray, Twist
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import MarkerArray
 
 NODE_NAME = 'pool_sim'
 """The node's name unless it is renamed."""
@@ -77,6 +79,13 @@ SHOT_REQUEST = Topic(
 SHOT_RESPONSE = Topic(
     'shot/response', String, 'JSON: see protocol.Response', _qos(BURST, latched=True)
 )
+SET_BALL_POSES = Topic(
+    'set_ball_poses',
+    PoseArray,
+    'put all balls elsewhere while they rest: position.x and y of each, m, cue ball first; z and '
+    'orientation are ignored',
+    _qos(10),
+)
 BALL_POSES = Topic('ball_poses', PoseArray, 'each tick: every ball, cue ball first', _qos(10))
 BALL_VELOCITIES = Topic(
     'ball_velocities', Float64MultiArray, 'with each frame: (n, 2), m/s', _qos(10)
@@ -97,7 +106,13 @@ STATE = Topic(
     _qos(1, latched=True),
 )
 TABLE = Topic('table', String, 'JSON: the fields of physics.Table', _qos(1, latched=True))
+MARKERS = Topic(
+    'markers', MarkerArray, 'the table, the balls, their labels and trails', _qos(10, latched=True)
+)
 CLOCK = Topic('/clock', Clock, 'sim time, only with the parameter publish_clock', _qos(1))
+DIAGNOSTICS = Topic(
+    '/diagnostics', DiagnosticArray, '1 Hz: speed, lateness, rejections, energy check', _qos(10)
+)
 
 RESET = Service('reset', Trigger, 'put the balls back on the start layout')
 SET_PAUSED = Service('set_paused', SetBool, 'pause or resume')

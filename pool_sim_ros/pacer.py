@@ -35,6 +35,8 @@ class Pacer:
         self._factor = real_time_factor
         self._clock = clock
         self._hurrying = False
+        self.slips = 0
+        """How often there was too much to catch up with, so that time slipped."""
         self.lateness = 0.0
         """How late the latest frame was, s; 0 as fast as possible."""
         self.restart()
@@ -72,6 +74,7 @@ class Pacer:
         if -MAX_LAG <= wait <= 1.001 * self._period:
             return wait
         # Too late to catch up, or the clock was set back.
+        self.slips += 1
         self.restart()
         return 0.0
 
@@ -79,6 +82,13 @@ class Pacer:
         """Note that the frame that was due was shown."""
         self.lateness = 0.0 if self._hurrying else max(self._clock() - self._due(), 0.0)
         self._shown += 1
+
+    @property
+    def ticks_behind(self) -> int:
+        """Frames that are due and not yet shown; 0 as fast as possible."""
+        if self._hurrying:
+            return 0
+        return max(int((self._clock() - self._due()) / self._period), 0)
 
     @property
     def _period(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from enum import Enum
 
@@ -13,6 +14,9 @@ from pool_sim_ros.protocol import COLLISION_COLUMNS
 
 NANOSECOND = 1e-9
 SECOND_NS = 1_000_000_000
+
+BLOCK = 64
+"""Ticks that are looked up at once: one look-up costs about as much as 64 more times in it."""
 
 
 class Motion(Enum):
@@ -80,7 +84,11 @@ class Playback:
         self._at_rest = np.array(layout, dtype=float)
         self._trajectory: Trajectory | None = None
         self._start_tick = 0
-        self._collisions = np.empty((0, len(COLLISION_COLUMNS)))
+        self._block_tick = 0
+        self._block_positions = self._block_velocities = np.empty((0, *self._at_rest.shape))
+        self._no_collisions = np.empty((0, len(COLLISION_COLUMNS)))
+        self._collisions = self._no_collisions
+        self._collision_times: list[float] = []
         self._next_collision = 0
         self._next_seq = 0
 
@@ -142,7 +150,7 @@ class Playback:
             self._start(tick)
         if self.motion is not Motion.MOVING:
             resting = np.zeros_like(self._at_rest)
-            return Frame(tick, stamp, self._at_rest, resting, self._collisions[:0])
+            return Frame(tick, stamp, self._at_rest, resting, self._no_collisions)
 
         shot = self._trajectory
         time = (stamp - self.stamp_of(self._start_tick)) * NANOSECOND
@@ -152,8 +160,8 @@ class Playback:
             collisions = self._collisions_until(len(self._collisions))
             self.reset(positions)
         else:
-            positions, velocities = shot.positions([time])[0], shot.velocities([time])[0]
-            end = np.searchsorted(self._collisions[:, 1], stamp * NANOSECOND, side='right')
+            positions, velocities = self._look_up(tick)
+            end = bisect_right(self._collision_times, stamp * NANOSECOND, self._next_collision)
             collisions = self._collisions_until(end)
         return Frame(tick, stamp, positions, velocities, collisions, started, finished)
 
@@ -165,10 +173,26 @@ class Playback:
         columns = [contacts[name] for name in COLLISION_COLUMNS[1:]]
         self._collisions = np.column_stack([np.zeros(len(contacts)), *columns])
         self._collisions[:, 1] += self.start_time
+        self._collision_times = self._collisions[:, 1].tolist()
         self._next_collision = 0
+        self._block_positions = self._block_velocities = self._block_positions[:0]
+
+    def _look_up(self, tick: int) -> tuple[np.ndarray, np.ndarray]:
+        index = tick - self._block_tick
+        if index >= len(self._block_positions):
+            start, shot = self.stamp_of(self._start_tick), self._trajectory
+            ticks = range(tick, tick + BLOCK)
+            times = [(self.stamp_of(later) - start) * NANOSECOND for later in ticks]
+            times = times[: bisect_left(times, shot.duration)]
+            self._block_positions = shot.positions(times)
+            self._block_velocities = shot.velocities(times)
+            self._block_tick, index = tick, 0
+        return self._block_positions[index], self._block_velocities[index]
 
     def _collisions_until(self, end: int) -> np.ndarray:
         # Numbered here and not at the start: a reset drops the rest, and seq must have no gap.
+        if end == self._next_collision:
+            return self._no_collisions
         rows = self._collisions[self._next_collision : end]
         rows[:, 0] = np.arange(self._next_seq, self._next_seq + len(rows))
         self._next_seq += len(rows)

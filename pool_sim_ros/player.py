@@ -8,12 +8,17 @@ import traceback
 from collections.abc import Sequence
 from typing import Protocol
 
+import numpy as np
+
+from pool_sim_ros.command_log import CommandLog
+from pool_sim_ros.health import Health, Report, energy_rise
+from pool_sim_ros.job import Job
 from pool_sim_ros.pacer import Pacer
 from pool_sim_ros.physics import compile_kernels
 from pool_sim_ros.playback import Frame
-from pool_sim_ros.protocol import Response
+from pool_sim_ros.protocol import Phase, Response
 from pool_sim_ros.settings import Settings
-from pool_sim_ros.simulation import Job, Simulation
+from pool_sim_ros.simulation import Simulation
 from pool_sim_ros.worker import Worker
 
 STATE_PERIOD = 1.0
@@ -41,6 +46,9 @@ BUSY_PERIOD = 0.05
 STEP_PATIENCE = 5.0
 """Seconds for which a step waits for the shot that is being computed, so that it is shown."""
 
+HEALTH_PERIOD = 1.0
+"""Seconds between two diagnostics, as their readers expect them."""
+
 COMPILE_NOTICE = 1.0
 """Seconds after which the kernels are not merely being loaded, but compiled."""
 
@@ -63,6 +71,9 @@ class Output(Protocol):
     def table(self, settings: Settings) -> None:
         """Send the table."""
 
+    def diagnostics(self, stamp: int, report: Report) -> None:
+        """Send how the simulator is doing, at a sim time in ns."""
+
     def tell(self, line: str) -> None:
         """Tell the user what goes on."""
 
@@ -83,19 +94,25 @@ class Player:
     ----------
     settings : Settings
     output : Output
+    log : CommandLog, optional
+        Where to record; closed in the end.
     """
 
-    def __init__(self, settings: Settings, output: Output) -> None:
+    def __init__(
+        self, settings: Settings, output: Output, log: CommandLog | None = None
+    ) -> None:
         self.ready = threading.Event()
         """Set once the kernels are compiled and this was told."""
-        self._simulation = Simulation(settings)
+        self._simulation = Simulation(settings, log=log)
+        self._health = Health()
         self._pacer = Pacer(settings.publish_rate, settings.real_time_factor)
         self._output = output
         self._lock = threading.Lock()
         self._computed = threading.Condition(self._lock)
         self._stopping = threading.Event()
         self._shown_state: dict[str, object] = {}
-        self._last_request = self._next_state = self._next_clock = time.monotonic()
+        now = time.monotonic()
+        self._last_request = self._next_state = self._next_clock = self._next_health = now
         output.table(settings)
         self._worker = Worker('compute')
         self._worker.submit(self._prepare)
@@ -120,6 +137,15 @@ class Player:
             self._show_state()
             self._computed.notify_all()
             return bool(preempted)
+
+    def place(self, positions: np.ndarray) -> str | None:
+        """Put the balls at (k, 2) positions in m; return why this cannot be, or None."""
+        with self._lock:
+            self._last_request = time.monotonic()
+            refusal = self._simulation.place(positions)
+            if refusal is not None:
+                self._health.rejected(f'set_ball_poses: {refusal}')
+            return refusal
 
     def set_paused(self, paused: bool) -> None:
         """Pause or resume."""
@@ -154,8 +180,8 @@ class Player:
         """Send nothing more; return whether the shot being computed ended within `timeout` s."""
         self._stopping.set()
         self._playing.join()
-        with self._lock:  # a result that is just being taken over
-            pass
+        with self._lock:  # a result may just be being taken over
+            self._simulation.close()
         return self._worker.stop(timeout)
 
     @property
@@ -164,6 +190,8 @@ class Player:
 
     def _answer(self, response: Response, job: Job | None) -> Response:
         self._last_request = time.monotonic()
+        if response.phase is Phase.REJECTED:
+            self._health.rejected(f'{response.code.value}: {response.reason}')
         self._output.responses([response])
         self._show_state()
         if job is not None:
@@ -191,12 +219,16 @@ class Player:
             )
 
     def _compute(self, job: Job) -> None:
+        start, rise = time.monotonic(), None
         try:
             result = job.run()
+            took = time.monotonic() - start
+            rise = energy_rise(result)
         except Exception as error:
-            result = error
+            result, took = error, time.monotonic() - start
         try:
             with self._lock:
+                self._health.shot(took, rise, job.table.ball_friction == 'report')
                 if self._running:
                     self._output.responses(self._simulation.computed(job, result))
                     self._show_state()
@@ -223,6 +255,7 @@ class Player:
         while (wait := self._pacer.wait(self._simulation.moving)) <= 0.0:
             self._show_next_frame()
             self._pacer.shown()
+            self._health.frame(self._pacer.lateness)
             if time.monotonic() > end:
                 return 0.0
         return wait
@@ -242,6 +275,15 @@ class Player:
         if playback.paused and now >= self._next_clock:
             self._output.clock(playback.stamp)
             self._next_clock = now + PAUSED_CLOCK_PERIOD
+        if now >= self._next_health:
+            self._next_health = now + HEALTH_PERIOD
+            self._show_health(now)
+
+    def _show_health(self, now: float) -> None:
+        stamp, pacer = self._simulation.playback.stamp, self._pacer
+        behind = 0 if self._simulation.playback.paused else pacer.ticks_behind
+        report = self._health.report(now, stamp, pacer.real_time_factor, behind, pacer.slips)
+        self._output.diagnostics(stamp, report)
 
     def _show_state(self, always: bool = False) -> None:
         """Send the state, if more of it has changed than the time, or `always`."""

@@ -21,6 +21,10 @@ COLLISION_COLUMNS = ('seq', 't', 'kind', 'a', 'b', 'x', 'y', 'nx', 'ny', 'speed'
 """Columns of `~/collisions`: see `interface.COLLISIONS`."""
 
 
+VELOCITY_COLUMNS = ('vx', 'vy')
+"""Columns of `~/ball_velocities`, m/s."""
+
+
 class Phase(str, Enum):
     """How far a request has come."""
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from rclpy.duration import Duration
 from rclpy.node import Node
 
-from pool_sim_ros import conversions, interface
+from pool_sim_ros import conversions, interface, wire
+from pool_sim_ros.health import Report
+from pool_sim_ros.marker_publisher import MarkerPublisher
 from pool_sim_ros.playback import Frame
-from pool_sim_ros.protocol import Response
+from pool_sim_ros.protocol import COLLISION_COLUMNS, VELOCITY_COLUMNS, Response
 from pool_sim_ros.settings import Settings
 from pool_sim_ros.table_json import table_to_json
 
@@ -27,30 +30,32 @@ class Publishers:
         self.failed = False
         """Whether `fail` was called."""
         self._node = node
-        self._frame_id = settings.frame_id
-        self._radii = settings.table.radii.tolist()
+        self._to_poses = wire.PosesWriter(settings.frame_id, settings.table.radii.tolist())
+        self._to_velocities = wire.RowsWriter('ball', VELOCITY_COLUMNS)
+        self._to_collisions = wire.RowsWriter('collision', COLLISION_COLUMNS)
         self._response = self._create(interface.SHOT_RESPONSE)
         self._poses = self._create(interface.BALL_POSES)
         self._velocities = self._create(interface.BALL_VELOCITIES)
         self._collisions = self._create(interface.COLLISIONS)
         self._state = self._create(interface.STATE)
         self._table = self._create(interface.TABLE)
+        self._diagnostics = self._create(interface.DIAGNOSTICS)
+        self._markers = MarkerPublisher(node, settings.table, settings.frame_id)
         self._clock = self._create(interface.CLOCK) if settings.publish_clock else None
 
     def frame(self, frame: Frame) -> None:
         """Send a tick: the clock, the collisions up to it, then the balls."""
         self.clock(frame.stamp)
         if len(frame.collisions):
-            self._collisions.publish(conversions.to_collisions(frame.collisions))
-        self._poses.publish(
-            conversions.to_poses(self._frame_id, frame.stamp, frame.positions, self._radii)
-        )
-        self._velocities.publish(conversions.to_velocities(frame.velocities))
+            self._collisions.publish(self._to_collisions.write(frame.collisions))
+        self._poses.publish(self._to_poses.write(frame.stamp, frame.positions))
+        self._velocities.publish(self._to_velocities.write(frame.velocities))
+        self._markers.frame(frame)
 
     def clock(self, stamp: int) -> None:
         """Send the sim time in ns, where this is wanted."""
         if self._clock is not None:
-            self._clock.publish(conversions.to_clock(stamp))
+            self._clock.publish(wire.clock_bytes(stamp))
 
     def responses(self, responses: Sequence[Response]) -> None:
         """Send responses."""
@@ -65,6 +70,11 @@ class Publishers:
         """Send the table that counts from the next strike."""
         self._table.publish(conversions.to_string(table_to_json(settings.table)))
 
+    def diagnostics(self, stamp: int, report: Report) -> None:
+        """Send how the node is doing, at a sim time in ns."""
+        name = self._node.get_fully_qualified_name()
+        self._diagnostics.publish(conversions.to_diagnostics(name, stamp, report))
+
     def tell(self, line: str) -> None:
         """Write to the log."""
         self._node.get_logger().info(line)
@@ -74,6 +84,16 @@ class Publishers:
         self.failed = True
         self._node.get_logger().fatal(line)
         self._node.context.try_shutdown()
+
+    def is_read(self) -> bool:
+        """Return whether balls, velocities and collisions each have a reader."""
+        frames = (self._poses, self._velocities, self._collisions)
+        return all(publisher.get_subscription_count() for publisher in frames)
+
+    def wait_for_delivery(self, timeout: Duration) -> None:
+        """Wait until the readers have all frames, at most so long for each topic."""
+        for publisher in (self._poses, self._velocities, self._collisions):
+            publisher.wait_for_all_acked(timeout)
 
     def is_open(self) -> bool:
         """Return whether ROS is up."""

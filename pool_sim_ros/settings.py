@@ -35,7 +35,9 @@ class ParameterSpec:
     least, most : float or None
         Range, both ends included.
     choices : tuple of str
-        What a string may be; empty = anything.
+        What a string may be; none = anything.
+    may_be_empty : bool
+        Whether a string may be empty.
     """
 
     name: str
@@ -45,6 +47,7 @@ class ParameterSpec:
     least: float | None = None
     most: float | None = None
     choices: tuple[str, ...] = ()
+    may_be_empty: bool = False
 
 
 class ParameterError(ValueError):
@@ -67,6 +70,7 @@ class Settings:
     frame_id: str
     publish_clock: bool
     start_paused: bool
+    record: str
 
 
 def _parameters() -> tuple[ParameterSpec, ...]:
@@ -134,6 +138,10 @@ def _parameters() -> tuple[ParameterSpec, ...]:
         spec('frame_id', 'table', 'frame of all that is published'),
         spec('publish_clock', False, 'whether to publish /clock'),
         spec('start_paused', False, 'whether to start paused'),
+        spec(
+            'record', '', 'new file to write a log of all commands to, for replay; empty = none',
+            may_be_empty=True,
+        ),
     )
 
 
@@ -141,6 +149,10 @@ PARAMETERS = {spec.name: spec for spec in _parameters()}
 """Every parameter of the node but those of ROS itself, by name."""
 
 _BALL_LISTS = {'labels': 1, 'masses': 1, 'radii': 1, 'positions': 2, 'colors': 3}
+_BALL_FIELDS = {
+    'labels': 'label', 'masses': 'mass', 'radii': 'radius', 'positions': 'position',
+    'colors': 'color',
+}  # fmt: skip
 
 
 def default_values() -> dict[str, object]:
@@ -190,7 +202,8 @@ def coerce(name: str, value: object) -> object:
         _require(isinstance(value, bool), name, 'true or false', value)
         return value
     if isinstance(spec.default, str):
-        _require(isinstance(value, str) and value != '', name, 'a string', value)
+        good = isinstance(value, str) and (value != '' or spec.may_be_empty)
+        _require(good, name, 'a string', value)
         if spec.choices:
             _require(value in spec.choices, name, ' or '.join(spec.choices), value)
         return value
@@ -228,6 +241,21 @@ def build_settings(values: Mapping[str, object]) -> Settings:
         raise
     except ValueError as error:
         raise ParameterError(str(error)) from error
+
+
+def values_of(settings: Settings) -> dict[str, object]:
+    """Return the value of every parameter: what `build_settings` was given."""
+    table = settings.table
+    values = {}
+    for name in PARAMETERS:
+        group, _, field = name.rpartition('.')
+        if group == 'balls':
+            rows = [getattr(ball, _BALL_FIELDS[field]) for ball in table.balls]
+            wide = _BALL_LISTS[field] > 1
+            values[name] = [number for row in rows for number in row] if wide else rows
+        else:
+            values[name] = getattr(table if group == 'table' else settings, field)
+    return values
 
 
 def _balls(values: Mapping[str, object]) -> tuple[Ball, ...]:

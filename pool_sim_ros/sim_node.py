@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import PoseArray, Twist
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -14,11 +14,12 @@ from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 
 from pool_sim_ros import conversions, interface
+from pool_sim_ros.command_log import CommandLog, LogError
 from pool_sim_ros.parameters import declare_parameters, on_change
 from pool_sim_ros.player import Player
 from pool_sim_ros.protocol import Response
 from pool_sim_ros.publishers import Publishers
-from pool_sim_ros.settings import PARAMETERS, ParameterError
+from pool_sim_ros.settings import PARAMETERS, ParameterError, Settings
 from pool_sim_ros.startup import (
     NAME_ERRORS,
     StartupError,
@@ -62,14 +63,16 @@ class SimNode(Node):
         super().__init__(node_name, context=context, parameter_overrides=parameter_overrides)
         try:
             settings = declare_parameters(self)
+            log = self._open_log(settings)
         except Exception:
             super().destroy_node()
             raise
         self._output = Publishers(self, settings)
-        self.player = Player(settings, self._output)
+        self.player = Player(settings, self._output, log)
         on_change(self, self.player.apply)
         self._subscribe(interface.CUE_VELOCITY, self._on_cue_velocity)
         self._subscribe(interface.SHOT_REQUEST, self._on_shot_request)
+        self._subscribe(interface.SET_BALL_POSES, self._on_set_ball_poses)
         self._serve(interface.RESET, self._on_reset)
         self._serve(interface.SET_PAUSED, self._on_set_paused)
         self._serve(interface.STEP, self._on_step)
@@ -90,11 +93,24 @@ class SimNode(Node):
     def _serve(self, service: interface.Service, callback) -> None:
         self.create_service(service.type, service.private, callback)
 
+    def _open_log(self, settings: Settings) -> CommandLog | None:
+        if not settings.record:
+            return None
+        try:
+            return CommandLog(settings.record, settings, self.get_logger().error)
+        except LogError as error:
+            raise ParameterError(f'record: {error}') from error
+
     def _on_cue_velocity(self, message: Twist) -> None:
         self._log(self.player.strike(*conversions.from_twist(message)))
 
     def _on_shot_request(self, message: String) -> None:
         self._log(self.player.request(message.data))
+
+    def _on_set_ball_poses(self, message: PoseArray) -> None:
+        refusal = self.player.place(conversions.from_poses(message))
+        if refusal is not None:
+            self._warn(f'set_ball_poses was rejected: {refusal}')
 
     def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         preempted = self.player.reset()
@@ -117,8 +133,10 @@ class SimNode(Node):
 
     def _log(self, response: Response) -> None:
         if response.reason is not None:
-            line = f'{response.phase.value} ({response.code.value}): {response.reason}'
-            self.get_logger().warn(line, throttle_duration_sec=LOG_PERIOD)
+            self._warn(f'{response.phase.value} ({response.code.value}): {response.reason}')
+
+    def _warn(self, line: str) -> None:
+        self.get_logger().warn(line, throttle_duration_sec=LOG_PERIOD)
 
 
 def main(args: list[str] | None = None) -> int:

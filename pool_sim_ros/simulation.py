@@ -4,41 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from pool_sim_ros.command_log import CommandLog
+from pool_sim_ros.job import Job, is_as_printed, make_job
 from pool_sim_ros.ledger import Ledger
-from pool_sim_ros.physics import Table, Trajectory, report_table, simulate
-from pool_sim_ros.physics.simulate import REPORT_TIME_SLICE
+from pool_sim_ros.physics import Trajectory
+from pool_sim_ros.physics.layout import check_layout
 from pool_sim_ros.playback import Frame, Motion, Playback
 from pool_sim_ros.protocol import Code, Phase, Request, Response, parse_request, twist_request
 from pool_sim_ros.report.log import inches
 from pool_sim_ros.report.shots import cue_velocity
 from pool_sim_ros.settings import Settings
-
-
-@dataclass(frozen=True, eq=False)
-class Job:
-    """A shot to compute: everything that `simulate` needs, as it was at the strike."""
-
-    table: Table
-    velocity: tuple[float, float]
-    positions: np.ndarray
-    integrator: str
-    time_slice: float
-    until: float
-
-    def run(self) -> Trajectory:
-        """Compute the shot; takes from microseconds to seconds, most of it without the GIL."""
-        return simulate(
-            self.table,
-            self.velocity,
-            positions=self.positions,
-            integrator=self.integrator,
-            time_slice=self.time_slice,
-            until=self.until,
-        )
 
 
 class Simulation:
@@ -54,13 +33,24 @@ class Simulation:
         from the next strike; the balls, the table's size and the rate must stay.
     ledger : Ledger, optional
         The memory of ids.
+    log : CommandLog, optional
+        Where to record what changes the frames.
     """
 
-    def __init__(self, settings: Settings, ledger: Ledger | None = None) -> None:
+    def __init__(
+        self,
+        settings: Settings,
+        ledger: Ledger | None = None,
+        log: CommandLog | None = None,
+    ) -> None:
         self.settings = settings
         table = settings.table
         self.playback = Playback(table.positions, settings.publish_rate, settings.start_paused)
         self._ledger = ledger or Ledger()
+        self._log = log
+        self._layout_changed = False
+        self._placed: np.ndarray | None = None
+        self._settings_at_strike = settings
         self._job: Job | None = None
         self._response: Response | None = None
         self._trajectory: Trajectory | None = None
@@ -112,11 +102,44 @@ class Simulation:
     def reset(self) -> list[Response]:
         """Put the balls back on the start layout; the shot in hand, if any, is preempted."""
         started = self.playback.start_time if self.playback.motion is Motion.MOVING else None
-        self.playback.reset(self.settings.table.positions)
+        self._lay_out(None)
         self._job = None
         if self._response is None:
             return []
         return [self._preempt(Code.RESET, 'the table was reset', started)]
+
+    def place(self, positions: np.ndarray) -> str | None:
+        """Put all balls elsewhere.
+
+        Parameters
+        ----------
+        positions : ndarray of shape (k, 2)
+            In the order of the balls, m.
+
+        Returns
+        -------
+        str or None
+            Why this cannot be, and nothing has changed; None where it was done.
+        """
+        table = self.settings.table
+        if len(positions) != len(table.balls):
+            return f'{len(positions)} positions; the table has {len(table.balls)} balls'
+        if self._response is not None:
+            return f'{self._doing}; wait for done or reset'
+        try:
+            check_layout(
+                positions, table.radii, table.length, table.width, table.labels, 'positions'
+            )
+        except ValueError as error:
+            return str(error)
+        self._lay_out(np.array(positions))
+        return None
+
+    def close(self) -> None:
+        """End the log."""
+        if self._log is not None:
+            self._log.close(self.playback.next_tick)
+            self._log = None
 
     def next_frame(self) -> tuple[Frame, list[Response]]:
         """Go on by one tick.
@@ -128,7 +151,28 @@ class Simulation:
             To be published after the frame.
         """
         frame = self.playback.next_frame()
+        if self._log is not None:
+            self._record(frame)
         return frame, [self._done()] if frame.finished else []
+
+    @property
+    def _doing(self) -> str:
+        return 'a shot is being computed' if self.computing else 'the balls are moving'
+
+    def _lay_out(self, positions: np.ndarray | None) -> None:
+        self._layout_changed, self._placed = True, positions
+        self.playback.reset(self.settings.table.positions if positions is None else positions)
+
+    def _record(self, frame: Frame) -> None:
+        # Not before the frame: of all resets and placings in a tick only the last one is seen.
+        if self._layout_changed:
+            self._log.layout(frame.tick, self._placed)
+        self._layout_changed, self._placed = False, None
+        if frame.started:
+            response = self._response
+            self._log.strike(
+                frame.tick, self._settings_at_strike, response.shot, response.velocity
+            )
 
     def _take(self, request: Request) -> tuple[Response, Job | None]:
         if request.id is not None:
@@ -147,6 +191,7 @@ class Simulation:
         if job is not None:
             self.playback.strike()
             self._job, self._response = job, response
+            self._settings_at_strike = self.settings
         return response, job
 
     def _repeated(self, request: Request, content: str, response: Response) -> Response:
@@ -157,14 +202,12 @@ class Simulation:
 
     def _consider(self, request: Request) -> tuple[Response, Job | None]:
         settings, table = self.settings, self.settings.table
-        velocity, positions = request.velocity, self.playback.positions
-        integrator, as_printed = settings.integrator, None
+        velocity, as_printed = request.velocity, None
         if request.shot is not None:
             try:
                 velocity = cue_velocity(request.shot, table)
             except ValueError as error:
                 return _rejected(request, Code.UNKNOWN_SHOT, str(error)), None
-            positions, integrator = table.positions, settings.report_integrator
             as_printed = is_as_printed(settings)
         speed = math.hypot(*velocity)
         if speed > settings.max_cue_speed:
@@ -172,22 +215,14 @@ class Simulation:
             reason = f'the speed {speed:g} m/s is above {limit}'
             return _rejected(request, Code.TOO_FAST, reason), None
         if self._response is not None:
-            doing = 'a shot is being computed' if self.computing else 'the balls are moving'
-            return _rejected(request, Code.BUSY, f'{doing}; wait for done or reset'), None
-        job = Job(
-            table=table,
-            velocity=velocity,
-            positions=positions,
-            integrator=integrator,
-            time_slice=settings.time_slice,
-            until=settings.max_shot_duration,
-        )
+            return _rejected(request, Code.BUSY, f'{self._doing}; wait for done or reset'), None
+        job = make_job(settings, request.shot, velocity, self.playback.positions)
         response = Response(
             id=request.id,
             phase=Phase.ACCEPTED,
             shot=request.shot,
             velocity=velocity,
-            integrator=integrator,
+            integrator=job.integrator,
             as_printed=as_printed,
         )
         return response, job
@@ -217,18 +252,6 @@ class Simulation:
         self._ledger.update(response)
         self._response = self._trajectory = None
         return response
-
-
-def is_as_printed(settings: Settings) -> bool:
-    """Return whether a report shot under these settings ends where the report printed."""
-    if settings.report_integrator != 'time_slice' or settings.time_slice != REPORT_TIME_SLICE:
-        return False
-    return _without_colors(settings.table) == _without_colors(report_table())
-
-
-def _without_colors(table: Table) -> Table:
-    balls = tuple(replace(ball, color=(0.0, 0.0, 0.0)) for ball in table.balls)
-    return replace(table, balls=balls)
 
 
 def _rejected(request: Request, code: Code, reason: str | None) -> Response:

@@ -9,6 +9,14 @@ os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 os.environ['FASTDDS_BUILTIN_TRANSPORTS'] = 'UDPv4'
 
 
+def pytest_collection_modifyitems(config, items):
+    """Leave out what takes minutes, unless -m names it."""
+    if 'soak' not in config.option.markexpr:
+        soaks = [item for item in items if item.get_closest_marker('soak')]
+        items[:] = [item for item in items if item not in soaks]
+        config.hook.pytest_deselected(items=soaks)
+
+
 @pytest.fixture(scope='session')
 def domain():
     """A ROS_DOMAIN_ID that no other test run on this machine uses, set for child processes too."""

@@ -58,6 +58,9 @@ class Recorder:
     def table(self, settings):
         self._keep('table', settings.table)
 
+    def diagnostics(self, stamp, report):
+        self._keep('diagnostics', (stamp, report))
+
     def tell(self, line):
         self._keep('tell', line)
 

@@ -100,3 +100,16 @@ def test_lateness_is_that_of_the_latest_frame():
     assert pacer.wait(False) <= 0.0
     pacer.shown()
     assert pacer.lateness == pytest.approx(0.002)
+
+
+def test_frames_that_are_due_are_counted_and_so_are_slips():
+    clock = Clock()
+    pacer = Pacer(60, 1.0, clock)
+    due_frames(pacer)
+    clock.now += 3.5 / 60
+    assert pacer.ticks_behind == 2
+    due_frames(pacer)
+    assert (pacer.ticks_behind, pacer.slips) == (0, 0)
+    clock.now += 5.0
+    due_frames(pacer)
+    assert (pacer.ticks_behind, pacer.slips) == (0, 1)

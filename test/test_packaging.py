@@ -21,7 +21,7 @@ import pool_sim_ros
 pytestmark = pytest.mark.packaging
 
 PROJECT = Path(__file__).parents[1]
-COMMANDS = {'sim_node', 'shot', 'replay', 'report'}
+COMMANDS = {'sim_node', 'shot', 'replay', 'report', 'web_view', 'record_shot'}
 LOCAL_ROS = {
     'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
     'ROS_DOMAIN_ID': str(random.randint(1, 101)),

@@ -6,7 +6,7 @@ from fakes import Glide
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pool_sim_ros.playback import Motion, Playback
+from pool_sim_ros.playback import BLOCK, Motion, Playback
 
 LAYOUT = np.array([[0.5, 0.5], [1.0, 0.5]])
 
@@ -68,6 +68,18 @@ def test_the_first_frame_at_rest_finishes_the_shot_on_its_final_positions():
     after = playback.next_frame()
     assert np.array_equal(after.positions, shot.final_positions) and not after.finished
     assert playback.motion is Motion.AT_REST
+
+
+@pytest.mark.parametrize('ticks', [BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK])
+def test_a_shot_longer_than_what_is_looked_up_at_once(ticks):
+    playback = Playback(LAYOUT, 100)
+    playback.next_frame()
+    shot = Glide(LAYOUT, (1.0, 0.0), ticks / 100 - 0.005)
+    for _ in range(2):
+        frames = play(playback, shot)
+        assert len(frames) == ticks + 1
+        for k, frame in enumerate(frames[:-1]):
+            assert np.allclose(frame.positions, LAYOUT + [k / 100, 0.0], atol=1e-12)
 
 
 def test_a_shot_that_ends_on_a_tick_finishes_there():

@@ -11,6 +11,7 @@ from pool_sim_ros.settings import (
     coerce,
     default_values,
     values_from,
+    values_of,
 )
 
 CONFIG = Path(__file__).resolve().parents[1] / 'config'
@@ -59,6 +60,12 @@ def test_any_number_of_balls():
     assert (red.mass, red.radius, red.position) == (0.1, 0.03, (1.0, 0.4))
     assert red.color == (0.5, 0.0, 0.25)
     assert [ball.is_cue for ball in table.balls] == [True, False]
+
+
+def test_the_values_of_settings_make_the_settings_again():
+    for overrides in ({}, TWO_BALLS, {'table.e_cue_ball': 0.3, 'record': 'x.log'}):
+        values = values_from(overrides)
+        assert values_of(build_settings(values)) == values
 
 
 def test_whole_numbers_do_for_floats():

@@ -35,6 +35,9 @@ def test_interface_is_that_of_the_design(ros):
         '/table_1/collisions': ('std_msgs/msg/Float64MultiArray', False, 1000),
         '/table_1/state': ('std_msgs/msg/String', True, 1),
         '/table_1/table': ('std_msgs/msg/String', True, 1),
+        '/table_1/markers': ('visualization_msgs/msg/MarkerArray', True, 10),
+        '/table_1/set_ball_poses': ('geometry_msgs/msg/PoseArray', False, 10),
+        '/diagnostics': ('diagnostic_msgs/msg/DiagnosticArray', False, 10),
         '/clock': ('rosgraph_msgs/msg/Clock', False, 1),
     }
     declared = [item for item in vars(interface).values() if isinstance(item, interface.Topic)]
@@ -42,10 +45,10 @@ def test_interface_is_that_of_the_design(ros):
     assert set(topics) == set(expected)
     ros.spin_until(lambda: node.count_publishers('/clock') > 0, 'the clock')
     for name, (kind, latched, depth) in expected.items():
-        if name.endswith(('cue_velocity', 'request')):
+        if name.endswith(('cue_velocity', 'request', 'set_ball_poses')):
             [info] = node.get_subscriptions_info_by_topic(name)
         else:
-            [info] = node.get_publishers_info_by_topic(name)
+            info, *_ = node.get_publishers_info_by_topic(name)  # ~/markers has two
         assert info.topic_type == kind
         assert info.qos_profile.reliability is ReliabilityPolicy.RELIABLE
         assert (info.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL) == latched

@@ -31,6 +31,8 @@ class Recording:
                 observer.wait_for_phase(request_id, 'accepted')
                 self.accepted_at[number] = len(observer.stamps)
                 self.done[number] = observer.wait_for_phase(request_id, 'done')
+                # Frames come on a topic of their own, perhaps after it.
+                observer.wait_for_frame_at(self.done[number]['t_end'])
             last = len(observer.stamps)
             ros.spin_until(lambda: len(observer.stamps) > last + 3, 'the frames after the last')
             self.responses = observer.responses

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from pool_sim_ros import conversions, wire
-from pool_sim_ros.protocol import COLLISION_COLUMNS
+from pool_sim_ros.protocol import COLLISION_COLUMNS, VELOCITY_COLUMNS
 
 NUMBERS = st.floats(width=64)
 STAMPS = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)
@@ -53,7 +53,7 @@ def test_poses_are_the_bytes_that_ros_makes(frame_id, radii, frames):
 
 @given(st.integers(1, 50), st.lists(st.integers(0, 2**32), min_size=1, max_size=4))
 def test_velocities_are_the_bytes_that_ros_makes(balls, seeds):
-    writer = wire.RowsWriter('ball', conversions.VELOCITY_COLUMNS)
+    writer = wire.RowsWriter('ball', VELOCITY_COLUMNS)
     for seed in seeds:
         rows = random_rows(seed, balls, 2)
         assert_same_bytes(writer.write(rows), conversions.to_velocities(rows))

@@ -1,0 +1,124 @@
+"""Keeps what a simulator publishes, as serialised bytes."""
+
+from __future__ import annotations
+
+import threading
+import time
+import uuid
+from collections.abc import Callable
+from typing import NamedTuple
+
+from geometry_msgs.msg import PoseArray
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.serialization import deserialize_message
+
+from pool_sim_ros import conversions, interface
+from pool_sim_ros.client import SimulatorError
+
+TOPICS = (
+    interface.TABLE,
+    interface.STATE,
+    interface.MARKERS,
+    interface.SHOT_REQUEST,
+    interface.SHOT_RESPONSE,
+    interface.BALL_POSES,
+    interface.BALL_VELOCITIES,
+    interface.COLLISIONS,
+)
+"""What is recorded."""
+
+_AT_ONCE = (interface.TABLE, interface.STATE, interface.MARKERS, interface.BALL_POSES)
+"""What comes without a shot: latched, or with every tick."""
+
+_DEPTH = 5000
+"""Messages that may wait to be taken."""
+
+
+class Recorded(NamedTuple):
+    """A message: when it came (wall time, ns), the topic, its full name and the CDR bytes."""
+
+    time: int
+    topic: interface.Topic
+    name: str
+    data: bytes
+
+
+class Recorder:
+    """Listens from its making to `close`.
+
+    Parameters
+    ----------
+    context : Context
+        Initialised; stays the caller's.
+    simulator : str
+        Name of the node, relative to the namespace of this one or absolute.
+    """
+
+    def __init__(self, context: Context, simulator: str) -> None:
+        self.messages: list[Recorded] = []
+        """What has come, in order."""
+        self._node = Node(f'pool_recorder_{uuid.uuid4().hex[:8]}', context=context)
+        self._simulator = simulator
+        self._subscriptions = [self._listen(topic) for topic in TOPICS]
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(self._node)
+        self._thread = threading.Thread(target=self._spin, name='recorder', daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Listen no more."""
+        self._executor.shutdown(0.0)
+        self._thread.join()
+        self._node.destroy_node()
+
+    def wait_for_topics(self, timeout: float) -> None:
+        """Wait until all that is published arrives; raises SimulatorError after `timeout` s."""
+        self._wait(self._hears_all, timeout, 'did not publish all its topics')
+
+    def wait_for_frame(self, sim_time: float, timeout: float) -> None:
+        """Wait for the poses at this sim time in s; raises SimulatorError after `timeout` s."""
+        stamp = round(sim_time * 1e9)
+
+        def came() -> bool:
+            data = next(m.data for m in reversed(self.messages) if m.topic is interface.BALL_POSES)
+            header = deserialize_message(data, PoseArray).header
+            return conversions.from_time(header.stamp) >= stamp
+
+        self._wait(came, timeout, 'sent no frame after the shot')
+
+    def _hears_all(self) -> bool:
+        heard = {message.name for message in self.messages}
+        return heard >= {
+            self._node.resolve_topic_name(topic.of(self._simulator)) for topic in _AT_ONCE
+        } and all(subscription.get_publisher_count() for subscription in self._subscriptions)
+
+    def _listen(self, topic: interface.Topic):
+        name = self._node.resolve_topic_name(topic.of(self._simulator))
+        qos = QoSProfile(
+            depth=_DEPTH,
+            reliability=topic.qos.reliability,
+            durability=topic.qos.durability,
+        )
+        if topic is interface.SHOT_RESPONSE:
+            qos.durability = interface.SHOT_REQUEST.qos.durability  # not those of the past
+
+        def keep(data: bytes) -> None:
+            self.messages.append(Recorded(time.time_ns(), topic, name, bytes(data)))
+
+        return self._node.create_subscription(topic.type, name, keep, qos, raw=True)
+
+    def _wait(self, condition: Callable[[], bool], timeout: float, otherwise: str) -> None:
+        end = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > end:
+                raise SimulatorError(f'{self._simulator} {otherwise} within {timeout:g} s')
+            time.sleep(0.01)
+
+    def _spin(self) -> None:
+        try:
+            self._executor.spin()
+        except ExternalShutdownException:
+            pass

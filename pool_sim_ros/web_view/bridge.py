@@ -1,0 +1,186 @@
+"""The ROS side: a client of the simulator, spun by a thread of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import uuid
+from collections.abc import Callable
+from typing import Protocol
+
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.srv import SetParameters
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+from pool_sim_ros import conversions, interface
+from pool_sim_ros.web_view.poses import LatestPoses
+
+PATIENCE = 6.0
+"""Seconds that a service is given to answer; a step may wait 5 s for a shot that is computed."""
+
+
+class NoAnswerError(Exception):
+    """The simulator did not answer; the message is for the user."""
+
+
+class Listener(Protocol):
+    """Who is told what the simulator sends; always within the event loop."""
+
+    def on_collisions(self, message: object) -> None:
+        """Take a message of `~/collisions`."""
+
+    def on_response(self, message: object) -> None:
+        """Take a message of `~/shot/response`."""
+
+    def on_state(self, message: object) -> None:
+        """Take a message of `~/state`."""
+
+    def on_table(self, message: object) -> None:
+        """Take a message of `~/table`."""
+
+
+class Bridge:
+    """Talks to one simulator. Its methods belong to the event loop that it is made in.
+
+    Parameters
+    ----------
+    context : Context
+        Initialised; stays the caller's.
+    simulator : str
+        Name of the node, relative to the namespace of this one or absolute.
+    listener : Listener
+    """
+
+    def __init__(self, context: Context, simulator: str, listener: Listener) -> None:
+        self._loop = asyncio.get_running_loop()
+        self._simulator = simulator
+        self._node = Node(
+            f'pool_web_view_{uuid.uuid4().hex[:8]}',
+            context=context,
+            start_parameter_services=False,
+        )
+        topic = interface.SHOT_REQUEST
+        self._requests = self._node.create_publisher(topic.type, topic.of(simulator), topic.qos)
+        self._poses = LatestPoses(context, simulator)
+        self._subscribe(interface.COLLISIONS, self._hand_to(listener.on_collisions))
+        # Not those of the past: the simulator keeps a thousand of them.
+        past = QoSProfile(
+            depth=interface.BURST,
+            reliability=ReliabilityPolicy.RELIABLE,
+            durability=DurabilityPolicy.VOLATILE,
+        )
+        self._subscribe(interface.SHOT_RESPONSE, self._hand_to(listener.on_response), qos=past)
+        self._subscribe(interface.STATE, self._hand_to(listener.on_state))
+        self._subscribe(interface.TABLE, self._hand_to(listener.on_table))
+        self._services = {
+            service: self._node.create_client(service.type, service.of(simulator))
+            for service in (interface.RESET, interface.STEP, interface.SET_PAUSED)
+        }
+        self._set_parameters = self._node.create_client(
+            SetParameters, f'{simulator}/set_parameters'
+        )
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(self._node)
+        self._thread = threading.Thread(target=self._spin, name='ros', daemon=True)
+        self._thread.start()
+
+    @property
+    def simulator(self) -> str:
+        """Full name of the node that is talked to."""
+        return self._requests.topic_name.removesuffix(f'/{interface.SHOT_REQUEST.name}')
+
+    def close(self) -> None:
+        """Leave ROS."""
+        self._executor.shutdown(0.0)
+        self._thread.join()
+        self._poses.close()
+        self._node.destroy_node()
+
+    def latest_poses(self) -> bytes | None:
+        """Return the latest message of `~/ball_poses`, serialised; None where none is new."""
+        return self._poses.take()
+
+    def left_out(self, error: Exception) -> None:
+        """Tell in the log that something the simulator sent made no sense."""
+        line = f'not understood, and left out: {error}'
+        self._node.get_logger().warn(line, throttle_duration_sec=1.0)
+
+    def request(self, **fields: object) -> None:
+        """Send a request, as `~/shot/request` takes it, under a new id."""
+        request = {'id': uuid.uuid4().hex, **fields}
+        self._requests.publish(conversions.to_json_string(request))
+
+    async def call(self, service: interface.Service, **fields: object) -> tuple[bool, str]:
+        """Call a service; return whether it did what was asked, and its words.
+
+        Raises
+        ------
+        NoAnswerError
+            Where nobody answers.
+        """
+        answer = await self._answer(self._services[service], service.type.Request(**fields))
+        return answer.success, answer.message
+
+    async def set_parameter(self, name: str, value: object) -> tuple[bool, str]:
+        """Set a parameter of the simulator; returns and raises as `call`."""
+        parameter: ParameterMessage = Parameter(name, value=value).to_parameter_msg()
+        answer = await self._answer(
+            self._set_parameters, SetParameters.Request(parameters=[parameter])
+        )
+        (result,) = answer.results
+        return result.successful, result.reason
+
+    async def _answer(self, client, request):
+        nobody = f'{self.simulator} does not answer'
+        if not client.service_is_ready():
+            raise NoAnswerError(nobody)
+        answered = self._loop.create_future()
+
+        def hand_over() -> None:
+            if answered.done():
+                return
+            try:
+                answered.set_result(future.result())
+            except Exception as error:
+                answered.set_exception(NoAnswerError(f'{nobody}: {error}'))
+
+        future = client.call_async(request)
+        future.add_done_callback(lambda _: self._in_loop(hand_over))
+        try:
+            return await asyncio.wait_for(answered, PATIENCE)
+        except asyncio.TimeoutError:
+            client.remove_pending_request(future)
+            raise NoAnswerError(nobody) from None
+
+    def _subscribe(
+        self,
+        topic: interface.Topic,
+        callback: Callable,
+        qos: QoSProfile | None = None,
+    ) -> None:
+        name = topic.of(self._simulator)
+        self._node.create_subscription(topic.type, name, callback, qos or topic.qos)
+
+    def _hand_to(self, callback: Callable) -> Callable:
+        return lambda message: self._in_loop(self._hand_over, callback, message)
+
+    def _hand_over(self, callback: Callable, message: object) -> None:
+        try:
+            callback(message)
+        except (KeyError, TypeError, ValueError) as error:
+            self.left_out(error)
+
+    def _in_loop(self, callback: Callable, *args: object) -> None:
+        # A loop that has ended meanwhile wants to know nothing more.
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(callback, *args)
+
+    def _spin(self) -> None:
+        try:
+            self._executor.spin()
+        except ExternalShutdownException:
+            pass

@@ -1,0 +1,55 @@
+"""Ball poses on their way from the topic to the page: bytes to bytes, 60 times a second."""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+
+_HEAD = 4
+"""Bytes before the message itself (CDR encapsulation); alignment counts from there."""
+
+_POSE = 7
+"""Numbers in a pose: position x, y, z and orientation x, y, z, w."""
+
+
+def page_frame(message: bytes) -> bytes:
+    """Return what a page is sent for one message of `~/ball_poses`.
+
+    Parameters
+    ----------
+    message : bytes
+        A serialised geometry_msgs/PoseArray (CDR, either byte order).
+
+    Returns
+    -------
+    bytes
+        Little-endian float64: the stamp in s, then x, y of each ball in m.
+
+    Raises
+    ------
+    ValueError
+        Where these are not the bytes of a PoseArray.
+    """
+    try:
+        order = '<' if message[1] & 1 else '>'
+        seconds, nanoseconds, length = struct.unpack_from(f'{order}iII', message, _HEAD)
+        place = _aligned(_HEAD + 12 + length, 4)
+        (count,) = struct.unpack_from(f'{order}I', message, place)
+        place = _aligned(place + 4, 8) if count else place
+        numbers = np.frombuffer(message, f'{order}f8', count * _POSE, place)
+    except (IndexError, struct.error, ValueError) as error:
+        raise ValueError(f'these are not the bytes of a PoseArray: {error}') from error
+    frame = np.empty(1 + 2 * count, dtype='<f8')
+    frame[0] = seconds + nanoseconds * 1e-9
+    frame[1:].reshape(count, 2)[:] = numbers.reshape(count, _POSE)[:, :2]
+    return frame.tobytes()
+
+
+def frame_positions(frame: bytes) -> np.ndarray:
+    """Return the (n, 2) positions in m of a frame that `page_frame` made."""
+    return np.frombuffer(frame, '<f8', offset=8).reshape(-1, 2)
+
+
+def _aligned(place: int, size: int) -> int:
+    return place + (_HEAD - place) % size

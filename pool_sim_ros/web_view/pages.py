@@ -1,0 +1,92 @@
+"""The pages that are open, and what each is still to be sent."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections import deque
+
+LONGEST_QUEUE = 512
+"""Texts that a page may be behind; one that is further behind is given up. Frames never queue:
+only the latest counts."""
+
+
+class Page:
+    """What is to be sent to one page."""
+
+    def __init__(self) -> None:
+        self.lost = False
+        """Whether it is too slow to be told everything."""
+        self._texts: deque[str] = deque()
+        self._frame: bytes | None = None
+        self._something = asyncio.Event()
+
+    def tell(self, text: str) -> None:
+        """Send a text, after those before it."""
+        self.lost = self.lost or len(self._texts) >= LONGEST_QUEUE
+        if not self.lost:
+            self._texts.append(text)
+        self._something.set()
+
+    def show(self, frame: bytes) -> None:
+        """Send a frame, instead of one that is still to be sent."""
+        self._frame = frame
+        self._something.set()
+
+    async def next(self) -> str | bytes:
+        """Wait for, and take, what is to be sent next; texts go before the frame."""
+        await self._something.wait()
+        if self._texts:
+            item = self._texts.popleft()
+        else:
+            item, self._frame = self._frame, None
+        if not self._texts and self._frame is None and not self.lost:
+            self._something.clear()
+        return item
+
+
+class Pages:
+    """All of them; a page that comes late is told what counts at that time."""
+
+    def __init__(self) -> None:
+        self._open: set[Page] = set()
+        self._kept: dict[str, str] = {}
+        self._frame: bytes | None = None
+
+    def open(self) -> Page:
+        """Return a new page, which is told at once what was kept for it."""
+        page = Page()
+        for text in self._kept.values():
+            page.tell(text)
+        if self._frame is not None:
+            page.show(self._frame)
+        self._open.add(page)
+        return page
+
+    def close(self, page: Page) -> None:
+        """Send nothing more to this page."""
+        self._open.discard(page)
+
+    def tell(self, kind: str, content: object, *, keep: bool = False) -> None:
+        """Send JSON to every page, and with `keep` to those that come later, until the next."""
+        text = message(kind, content)
+        if keep:
+            self._kept[kind] = text
+        for page in self._open:
+            page.tell(text)
+
+    def forget(self, kind: str) -> None:
+        """No longer tell new pages the last of this kind."""
+        self._kept.pop(kind, None)
+
+    def show(self, frame: bytes | None) -> None:
+        """Send a frame to every page, and to those that come later; None forgets the last."""
+        self._frame = frame
+        if frame is not None:
+            for page in self._open:
+                page.show(frame)
+
+
+def message(kind: str, content: object) -> str:
+    """Return a text as pages are told it: ``{"kind": ..., "content": ...}``."""
+    return json.dumps({'kind': kind, 'content': content}, allow_nan=False)

@@ -1,0 +1,181 @@
+"""Between simulator and pages: what the pages are shown, and what they may ask for."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from dataclasses import asdict
+
+import numpy as np
+from rclpy.context import Context
+
+from pool_sim_ros import conversions, interface
+from pool_sim_ros.physics import Table, compile_kernels
+from pool_sim_ros.protocol import COLLISION_COLUMNS, Phase
+from pool_sim_ros.report.log import published_final_positions
+from pool_sim_ros.table_json import table_from_json
+from pool_sim_ros.web_view.bridge import Bridge, NoAnswerError
+from pool_sim_ros.web_view.commands import Command, parse_command
+from pool_sim_ros.web_view.frames import frame_positions, page_frame
+from pool_sim_ros.web_view.pages import Page, Pages, message
+from pool_sim_ros.web_view.prediction import predict
+
+SILENCE = 3.5
+"""Seconds without `~/state`, which comes every second, after which the simulator is gone."""
+
+FRAME_PERIOD = 1 / 100
+"""Seconds between two looks for a new frame: at real speed one comes every 1/60 s. Of a simulator
+that runs as fast as it can the pages see the latest."""
+
+
+class View:
+    """Shows one simulator to the pages, and does what they ask for.
+
+    Parameters
+    ----------
+    context : Context
+        Initialised; stays the caller's.
+    simulator : str
+        Name of the node.
+    """
+
+    def __init__(self, context: Context, simulator: str) -> None:
+        self.pages = Pages()
+        self._table: Table | None = None
+        self._compiled = False
+        self._state: dict[str, object] | None = None
+        self._frame: bytes | None = None
+        self._printed = published_final_positions()
+        self._loop = asyncio.get_running_loop()
+        self._silence: asyncio.TimerHandle | None = None
+        self._tasks: set[asyncio.Task] = set()
+        self._bridge = Bridge(context, simulator, self)
+        self._tell_whether_there()
+        self._look = self._loop.call_soon(self._look_for_frame)
+
+    @property
+    def simulator(self) -> str:
+        """Full name of the node that is shown."""
+        return self._bridge.simulator
+
+    def close(self) -> None:
+        """Leave ROS."""
+        self._look.cancel()
+        if self._silence is not None:
+            self._silence.cancel()
+        for task in self._tasks:
+            task.cancel()
+        self._bridge.close()
+
+    async def obey(self, page: Page, text: str) -> None:
+        """Do what a page asks for; tell it what is wrong with that."""
+        try:
+            await self._obey(page, parse_command(text))
+        except (ValueError, NoAnswerError) as error:
+            page.tell(message('problem', str(error)))
+
+    async def _obey(self, page: Page, command: Command) -> None:
+        if self._state is None:
+            raise NoAnswerError(self._absence())
+        if command.name == 'aim':
+            page.tell(message('prediction', await self._predict(command.value)))
+        elif command.name == 'strike':
+            self._bridge.request(velocity=command.value)
+        elif command.name == 'shot':
+            self._bridge.request(shot=command.value)
+        else:
+            succeeded, words = await self._call(command)
+            if not succeeded:
+                raise ValueError(words)
+
+    async def _call(self, command: Command) -> tuple[bool, str]:
+        if command.name == 'pause':
+            return await self._bridge.call(interface.SET_PAUSED, data=command.value)
+        if command.name == 'speed':
+            return await self._bridge.set_parameter('real_time_factor', command.value)
+        service = interface.STEP if command.name == 'step' else interface.RESET
+        return await self._bridge.call(service)
+
+    async def _predict(self, velocity: tuple[float, float]) -> dict[str, object] | None:
+        """Return the paths, or None where there is nothing to predict from."""
+        table, frame = self._table, self._frame
+        if table is None or frame is None or self._state['moving'] or not self._compiled:
+            return None
+        positions = frame_positions(frame)
+        if len(positions) != len(table.balls) or not any(velocity):
+            return None
+        # Not in the loop: on a table with many balls it takes longer than a frame.
+        paths = await asyncio.to_thread(predict, table, positions, velocity)
+        return {'velocity': velocity, **paths}
+
+    def on_collisions(self, collisions: object) -> None:
+        """Show what touched; see `bridge.Listener`."""
+        rows = conversions.from_rows(collisions)
+        if rows.shape[1] != len(COLLISION_COLUMNS) or not np.isfinite(rows).all():
+            return
+        self.pages.tell('collisions', rows.tolist())
+
+    def on_response(self, response: object) -> None:
+        """Show what came of a request, beside what the report printed."""
+        content = json.loads(response.data)
+        done = content['phase'] == Phase.DONE
+        printed = self._printed.get(content['shot']) if done and content['as_printed'] else None
+        self.pages.tell('response', {**content, 'printed': printed})
+        if done:
+            self.pages.tell('result', {**content, 'printed': printed}, keep=True)
+
+    def on_state(self, state: object) -> None:
+        """Show what goes on."""
+        came = self._state is None
+        self._state = json.loads(state.data)
+        self.pages.tell('state', self._state, keep=True)
+        if came:
+            self._tell_whether_there()
+        if self._silence is not None:
+            self._silence.cancel()
+        self._silence = self._loop.call_later(SILENCE, self._miss)
+
+    def on_table(self, table: object) -> None:
+        """Show the table."""
+        self._table = table_from_json(table.data)
+        self.pages.tell('table', asdict(self._table), keep=True)
+        self._run(self._compile(self._table))
+
+    async def _compile(self, table: Table) -> None:
+        await asyncio.to_thread(compile_kernels, table)
+        self._compiled = True
+        self.pages.tell('predicts', True, keep=True)
+
+    def _look_for_frame(self) -> None:
+        self._look = self._loop.call_later(FRAME_PERIOD, self._look_for_frame)
+        poses = self._bridge.latest_poses()
+        if poses is None:
+            return
+        try:
+            self._frame = page_frame(poses)
+        except ValueError as error:
+            self._bridge.left_out(error)
+        else:
+            self.pages.show(self._frame)
+
+    def _miss(self) -> None:
+        self._state = self._frame = None
+        self.pages.forget('state')
+        self.pages.forget('result')
+        self.pages.show(None)
+        self._tell_whether_there()
+
+    def _tell_whether_there(self) -> None:
+        problem = self._absence() if self._state is None else None
+        self.pages.tell('simulator', {'name': self.simulator, 'problem': problem}, keep=True)
+
+    def _absence(self) -> str:
+        return (
+            f'No simulator answers as {self.simulator}. Start one with '
+            '"ros2 run pool_sim_ros sim_node", under the same ROS_DOMAIN_ID.'
+        )
+
+    def _run(self, coroutine) -> None:
+        task = self._loop.create_task(coroutine)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)

@@ -1,0 +1,66 @@
+"""What the documentation shows is run; what it names exists."""
+
+import ast
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from ros_harness import node_process
+
+from pool_sim_ros import interface
+
+PROJECT = Path(__file__).parents[1]
+EXAMPLE = PROJECT / 'docs' / 'example_node.py'
+
+
+def test_the_example_node_shoots_and_hears_what_came_of_it(domain):
+    with node_process(real_time_factor=10.0) as node:
+        node.wait_for('ready')
+        example = subprocess.run(
+            [sys.executable, EXAMPLE], capture_output=True, text=True, timeout=60, env=os.environ
+        )
+    assert example.stdout.startswith('done ['), example.stderr
+    x, y = ast.literal_eval(example.stdout.removeprefix('done '))
+    assert 0 < x < 2.2352 and 0 < y < 1.1176
+
+
+def test_the_tour_shows_the_example_as_it_is():
+    assert EXAMPLE.read_text().strip() in (PROJECT / 'docs' / 'tour.md').read_text()
+
+
+def test_the_python_in_the_tour_runs():
+    blocks = re.findall(r'```python\n(.*?)```', (PROJECT / 'docs' / 'tour.md').read_text(), re.S)
+    (pure,) = [block for block in blocks if 'rclpy' not in block]
+    exec(compile(pure, 'tour.md', 'exec'), {})
+
+
+@pytest.mark.parametrize('file', sorted((PROJECT / 'docs').glob('*.md')), ids=lambda f: f.name)
+def test_links_lead_somewhere(file):
+    for link in re.findall(r'\]\(([^)#]+)', file.read_text()):
+        assert '://' in link or (file.parent / link).exists(), link
+
+
+@pytest.mark.parametrize('name', ['pool_table.rviz', 'foxglove_layout.json'])
+def test_the_layouts_of_the_viewers_name_what_the_node_has(name):
+    text = (PROJECT / 'config' / name).read_text()
+    endpoints = [e for e in vars(interface).values() if isinstance(e, interface.Endpoint)]
+    known = {endpoint.of(f'/{interface.NODE_NAME}') for endpoint in endpoints}
+    named = {found.removesuffix('.data') for found in re.findall(r'/pool_sim/[\w/.]+', text)}
+    assert '/pool_sim/markers' in named <= known
+    assert 'table' in text
+    if name.endswith('.json'):
+        json.loads(text)
+
+
+def test_the_launch_file_starts_what_is_there():
+    root = ElementTree.parse(PROJECT / 'launch' / 'pool.launch.xml').getroot()
+    ours = [node for node in root.iter('node') if node.get('pkg') == 'pool_sim_ros']
+    assert [node.get('exec') for node in ours] == ['sim_node']
+    text = (PROJECT / 'launch' / 'pool.launch.xml').read_text()
+    files = re.findall(r'\$\(find-pkg-share pool_sim_ros\)/([\w./]+)', text)
+    assert files and all((PROJECT / file).is_file() for file in files)

@@ -1,0 +1,280 @@
+"""The page in a real browser: Chromium, without a window."""
+
+import os
+import shutil
+import time
+
+import numpy as np
+import pytest
+
+CHROMIUM = next(filter(None, map(shutil.which, ('chromium', 'chromium-browser'))), None)
+if CHROMIUM is None:
+    pytest.skip('Chromium is missing: apt install chromium', allow_module_level=True)
+pytest.importorskip('aiohttp', reason="aiohttp is missing: pip install 'pool_sim_ros[web]'")
+sync_api = pytest.importorskip('playwright.sync_api', reason='pip install playwright')
+
+from site_harness import simulator, web_view  # noqa: E402
+from waiting import PATIENCE  # noqa: E402
+
+from pool_sim_ros.physics import report_table  # noqa: E402
+
+TABLE = report_table()
+DESKTOP = {'width': 1280, 'height': 800}
+PHONE = {'width': 390, 'height': 844}
+SWITCHES = [
+    '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
+    '--disable-background-networking', '--disable-component-update', '--disable-sync',
+]
+
+
+class Page:
+    """A page that is open in the browser."""
+
+    def __init__(self, page):
+        self.page = page
+        self.errors = []
+        page.on('pageerror', lambda error: self.errors.append(str(error)))
+
+    def get(self, script):
+        return self.page.evaluate(script)
+
+    def wait(self, script):
+        """Wait until an expression is true."""
+        end = time.monotonic() + PATIENCE
+        while not self.get(f'Boolean({script})'):
+            assert time.monotonic() < end, f'waited {PATIENCE:g} s for {script}'
+            self.page.wait_for_timeout(10)
+
+    def text(self, element):
+        return self.page.inner_text(f'#{element}')
+
+    def press(self, *keys):
+        for key in keys:
+            self.page.keyboard.press(key)
+
+    def wait_for_rest(self):
+        self.wait('page.state && page.places && !page.state.moving && !page.state.computing')
+
+    def start_over(self):
+        """Put the balls back, and wait until the page shows it."""
+        self.wait_for_rest()
+        self.page.click('#reset')
+        start = TABLE.positions.ravel().tolist()
+        self.wait(f'page.places.every((place, i) => place === {start}[i])')
+
+    def pixel(self, x, y):
+        """Return where a place on the table is in the window."""
+        box = self.page.locator('#table').bounding_box()
+        sx, sy = self.get(f'page.painter.geometry.toScreen({x}, {y})')
+        return box['x'] + sx, box['y'] + sy
+
+    def drag(self, x, y):
+        """Drag back from the cue ball by x, y in m; stay there until this is predicted."""
+        ball = self.get('page.places.slice(0, 2)')
+        self.page.mouse.move(*self.pixel(*ball))
+        self.page.mouse.down()
+        self.page.mouse.move(*self.pixel(ball[0] + x, ball[1] + y), steps=5)
+        self.wait('page.prediction && page.prediction.velocity[0] === page.aim.velocity[0]'
+                  ' && page.prediction.velocity[1] === page.aim.velocity[1]')
+        return self.get('page.prediction')
+
+    def record(self):
+        """Keep what is drawn from now on, frame by frame."""
+        self.get("""() => {
+          page.record = [];
+          const look = () => {
+            if (page.record.at(-1) !== page.places) page.record.push(page.places);
+            requestAnimationFrame(look);
+          };
+          look();
+        }""")
+
+
+@pytest.fixture(scope='module')
+def browser():
+    with sync_api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=SWITCHES)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope='module')
+def site(domain):
+    with simulator('--ros-args', '-r', '__node:=seen'), web_view('--node', 'seen') as site:
+        yield site
+
+
+@pytest.fixture
+def show(browser):
+    """Open pages; fails where one of them had an error."""
+    contexts, pages = [], []
+
+    def open_page(address, size=DESKTOP, **options):
+        contexts.append(browser.new_context(viewport=size, **options))
+        pages.append(Page(contexts[-1].new_page()))
+        pages[-1].page.goto(address)
+        return pages[-1]
+
+    yield open_page
+    errors = [error for page in pages for error in page.errors]
+    for context in contexts:
+        context.close()
+    assert errors == []
+
+
+def distance_to_way(points, place):
+    starts, steps = np.array(points[:-1]), np.diff(points, axis=0)
+    part = np.clip(np.sum((place - starts) * steps, axis=1) / np.sum(steps**2, axis=1), 0, 1)
+    return np.hypot(*(place - starts - part[:, np.newaxis] * steps).T).min()
+
+
+def test_a_drag_makes_a_shot_and_the_path_played_is_the_path_predicted(site, show):
+    page = show(site.address)
+    page.start_over()
+    page.wait("document.getElementById('problem').hidden")
+    prediction = page.drag(0.55, -0.03)
+    assert len(prediction['paths']) >= 4
+    page.record()
+    page.page.mouse.up()
+    page.wait('page.state.moving')
+    page.wait_for_rest()
+    ends = {path['ball']: path['points'][-1] for path in prediction['paths']}
+    for ball, (x, y) in ends.items():
+        page.wait(f'page.places[{2 * ball}] === {x} && page.places[{2 * ball + 1}] === {y}')
+    page.wait('page.record.at(-1) === page.places')
+    metre = page.get('page.painter.geometry.scale')
+    drawn = np.array(page.get('page.record')).reshape(-1, len(TABLE.balls), 2)
+    assert len(drawn) > 60
+    for ball, way in ((path['ball'], path['points']) for path in prediction['paths']):
+        off = [distance_to_way(way, place) for place in drawn[:, ball]]
+        assert max(off) * metre < 1.0, f'ball {ball}'
+        assert np.array_equal(drawn[-1, ball], way[-1])
+    still = sorted(set(range(len(TABLE.balls))) - set(ends))
+    assert np.array_equal(drawn[-1, still], TABLE.positions[still])
+    assert page.page.locator('#collisions tbody tr').count() >= 4
+
+
+def test_a_drag_that_ends_on_the_ball_or_is_escaped_shoots_nothing(site, show):
+    page = show(site.address)
+    page.start_over()
+    page.drag(0.3, 0.0)
+    page.page.mouse.move(*page.pixel(*page.get('page.places.slice(0, 2)')))
+    page.page.mouse.up()
+    page.drag(0.3, 0.0)
+    page.press('Escape')
+    page.page.mouse.up()
+    assert page.get('page.aim.active') is False
+    page.press('Space')
+    page.wait('page.state.paused')
+    assert page.get('page.state.moving || page.state.computing') is False
+    page.press('Space')
+    page.wait('!page.state.paused')
+
+
+def test_the_buttons_reach_the_printed_positions(domain, show):
+    named = ['--ros-args', '-r', '__node:=quick']
+    with simulator(*named, real_time_factor=10.0), web_view('--node', 'quick') as site:
+        page, other = show(site.address), show(site.address, PHONE)
+        for number in '1234':
+            page.wait_for_rest()
+            page.page.click(f'[data-shot="{number}"]')
+            for each in (page, other):
+                title = f"document.getElementById('result-title').textContent.includes({number})"
+                each.wait(title)
+                assert '11 of 11' in each.text('verdict')
+                assert each.page.locator('#positions .same').count() == 11
+
+
+def test_the_keys_alone_do_everything(site, show):
+    page = show(site.address)
+    page.start_over()
+    page.press('ArrowUp', 'ArrowLeft', 'Shift+ArrowRight', 'ArrowDown')
+    assert page.get('[page.aim.active, page.aim.direction, page.aim.speed]') == [
+        True, pytest.approx(-179.1), pytest.approx(3.0)]
+    page.wait('page.prediction')
+    page.press('Enter')
+    page.wait('page.state.moving')
+    page.press('Space')
+    page.wait('page.state.paused')
+    before = page.get('page.timeline.newest.stamp')
+    page.press('s')
+    page.wait(f'page.timeline.newest.stamp > {before}')
+    assert 'paused' in page.text('state')
+    page.press('r', 'Space')
+    page.wait('!page.state.paused && !page.state.moving')
+    page.press('3')
+    page.wait('page.state.moving')
+    page.press('r')
+    page.wait_for_rest()
+    page.page.locator('h1').click()
+    reached = set()
+    for _ in range(20):
+        page.press('Tab')
+        reached.add(page.get('document.activeElement.id || document.activeElement.dataset.shot'))
+        if page.get('document.activeElement !== document.body'):
+            assert page.get('getComputedStyle(document.activeElement).outlineStyle') != 'none'
+    wanted = {'table', 'direction', 'strength', 'shoot', '1', '4', 'pause', 'reset', 'speed'}
+    assert wanted <= reached
+
+
+def test_a_finger_on_a_phone(site, show):
+    page = show(site.address, PHONE, has_touch=True, is_mobile=True)
+    page.start_over()
+    assert page.get('document.documentElement.scrollWidth') <= PHONE['width']
+    assert page.get('page.painter.geometry.upright')
+    ball = page.get('page.places.slice(0, 2)')
+    start, end = page.pixel(*ball), page.pixel(ball[0] + 0.3, ball[1])
+    touch = page.page.context.new_cdp_session(page.page)
+    for kind, places in (('touchStart', [start]), ('touchMove', [end]), ('touchEnd', [])):
+        points = [{'x': x, 'y': y} for x, y in places]
+        touch.send('Input.dispatchTouchEvent', {'type': f'{kind}', 'touchPoints': points})
+    page.wait('page.state.moving')
+    page.wait_for_rest()
+
+
+def test_speed_of_the_simulation(site, show):
+    page = show(site.address)
+    page.wait_for_rest()
+    page.page.select_option('#speed', '2')
+    page.wait('page.state.real_time_factor === 2')
+    page.page.select_option('#speed', '1')
+    page.wait('page.state.real_time_factor === 1')
+
+
+def test_it_says_what_is_wrong_and_comes_back_by_itself(domain, show):
+    named = ['--ros-args', '-r', '__node:=mortal']
+    with web_view('--node', 'mortal') as site:
+        page = show(site.address)
+        page.wait("!document.getElementById('problem').hidden")
+        assert 'No simulator answers as /mortal' in page.text('problem')
+        assert page.page.locator('button:enabled').count() == 0
+        with simulator(*named):
+            page.wait("document.getElementById('problem').hidden")
+            page.start_over()
+            page.drag(0.2, 0.05)
+            page.page.mouse.up()
+            page.wait('page.state.moving')
+        page.wait("document.getElementById('state').textContent === 'no simulator'")
+        with simulator(*named):
+            page.start_over()
+            site.interrupt()
+            assert site.wait() == 0
+            page.wait("document.getElementById('problem').textContent.includes('lost its server')")
+            with web_view('--node', 'mortal', '--port', site.address.rsplit(':', 1)[1]):
+                page.wait_for_rest()
+                page.press('1')
+                page.wait('page.state.moving')
+
+
+@pytest.mark.skipif('SCREENSHOTS' not in os.environ, reason='SCREENSHOTS names no folder')
+@pytest.mark.parametrize(('name', 'size'), [('desktop', DESKTOP), ('phone', PHONE)])
+@pytest.mark.parametrize('scheme', ['light', 'dark'])
+def test_screenshots_for_the_eye(site, show, name, size, scheme):
+    page = show(site.address, size, color_scheme=scheme)
+    page.start_over()
+    page.drag(0.5, 0.02)
+    file = os.path.join(os.environ['SCREENSHOTS'], f'{name}_{scheme}.png')
+    page.page.screenshot(path=file, full_page=True)
+    page.press('Escape')
+    page.page.mouse.up()
+    assert os.path.getsize(file) > 0
