@@ -28,7 +28,7 @@ help:
 	@echo 'make bench   run the benchmarks'
 	@echo 'make setup   only create $(VENV) and install everything there'
 	@echo 'make clean   remove $(VENV), caches and build folders'
-	@echo 'The first run downloads about 140 MB. PYTHON=python3.12 chooses the interpreter (3.10 or newer).'
+	@echo 'The first run downloads some hundred MB. PYTHON=python3.12 chooses the interpreter (3.10 or newer).'
 
 demo: $(INSTALLED)
 	@$(PY) -m pool_sim_ros.demo
