@@ -71,7 +71,7 @@ def _record(context, options: argparse.Namespace) -> None:
                 timeout=options.timeout,
                 on_progress=line.show if line.wanted else None,
             )
-            recorder.wait_for_frame(response['t_end'], options.timeout)
+            recorder.wait_for_end(response, options.timeout)
         finally:
             recorder.close()
     finally:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 import time
 import uuid
@@ -14,6 +15,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
+from std_msgs.msg import String
 
 from pool_sim_ros import conversions, interface
 from pool_sim_ros.client import SimulatorError
@@ -24,11 +26,15 @@ TOPICS = (
     interface.MARKERS,
     interface.SHOT_REQUEST,
     interface.SHOT_RESPONSE,
-    interface.BALL_POSES,
     interface.BALL_VELOCITIES,
     interface.COLLISIONS,
+    interface.BALL_POSES,
 )
-"""What is recorded."""
+"""What is recorded.
+
+The simulator learns of the subscriptions in this order, so that once it sends the last, which comes
+with every tick, it sends the others too.
+"""
 
 _AT_ONCE = (interface.TABLE, interface.STATE, interface.MARKERS, interface.BALL_POSES)
 """What comes without a shot: latched, or with every tick."""
@@ -78,16 +84,37 @@ class Recorder:
         """Wait until all that is published arrives; raises SimulatorError after `timeout` s."""
         self._wait(self._hears_all, timeout, 'did not publish all its topics')
 
-    def wait_for_frame(self, sim_time: float, timeout: float) -> None:
-        """Wait for the poses at this sim time in s; raises SimulatorError after `timeout` s."""
-        stamp = round(sim_time * 1e9)
+    def wait_for_end(self, response: dict, timeout: float) -> None:
+        """Wait until all of a shot has come.
+
+        That is both responses to its request, and a frame later than its end: whatever was
+        published with or before its last frame has been taken by then, for the executor takes from
+        each topic in turn.
+
+        Parameters
+        ----------
+        response : dict
+            The last response, as `protocol.Response` has it.
+        timeout : float
+            s.
+
+        Raises
+        ------
+        SimulatorError
+            Where something is missing after that time.
+        """
+        end = round(response['t_end'] * 1e9)
 
         def came() -> bool:
             data = next(m.data for m in reversed(self.messages) if m.topic is interface.BALL_POSES)
-            header = deserialize_message(data, PoseArray).header
-            return conversions.from_time(header.stamp) >= stamp
+            if conversions.from_time(deserialize_message(data, PoseArray).header.stamp) <= end:
+                return False
+            texts = [m.data for m in self.messages if m.topic is interface.SHOT_RESPONSE]
+            answers = [json.loads(deserialize_message(text, String).data) for text in texts]
+            phases = [answer['phase'] for answer in answers if answer['id'] == response['id']]
+            return phases[-1:] == [response['phase']]
 
-        self._wait(came, timeout, 'sent no frame after the shot')
+        self._wait(came, timeout, 'did not send the end of the shot')
 
     def _hears_all(self) -> bool:
         heard = {message.name for message in self.messages}
