@@ -1,8 +1,17 @@
 """Fixtures for tests over ROS: loopback only, a domain of its own for each run."""
 
 import os
+import signal
 
 import pytest
+from hypothesis import HealthCheck, settings
+
+# How long an example takes says how busy the machine is.
+settings.register_profile('here', deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile('here')
+
+# A shell's background job ignores Ctrl-C, and so would every process that a test starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 # A process that is killed while it writes to shared memory leaves that broken for all others.

@@ -183,6 +183,14 @@ def collide_cushion(velocity, axis, e, mu):
 # --- Contact times.  A ball that rolls straight loses speed at the constant rate `deceleration` ---
 
 
+def runaway_energy(table, velocities):
+    """Return the energy with which one ball runs away, J: a hundred times that of all at first."""
+    energy = 0.0
+    for ball, velocity in zip(table.balls, velocities, strict=False):
+        energy += 0.5 * ball.mass * max(math.hypot(*velocity), 0.01) ** 2
+    return math.inf if table.ball_friction == 'coulomb' else 100.0 * energy
+
+
 def time_to_travel(distance, speed, deceleration):
     """Time to roll `distance`: s = v t - a t^2 / 2, first root; inf where it stops short."""
     under_root = speed * speed - 2 * deceleration * distance

@@ -24,6 +24,7 @@ from pool_sim_ros.physics.prediction import (
     predict_all,
 )
 from pool_sim_ros.physics.record import STOPPED, enlarged, has_room, log_event, new_log
+from pool_sim_ros.physics.runaway import most_energy, runs_away
 from pool_sim_ros.physics.schedule import new_schedule
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
@@ -39,11 +40,11 @@ def play(table: Table, at_rest: np.ndarray, velocities: np.ndarray, until: float
     schedule = new_schedule(n)
     log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n)
     cluster = new_cluster(n)
-    start(balls, table.world, cells, schedule, velocities, log)
-    while not run(balls, table.world, cells, schedule, cluster, until, log):
+    most = start(balls, table.world, cells, schedule, velocities, log)
+    while not run(balls, table.world, cells, schedule, cluster, until, most, log):
         log = enlarged(log)
     ends = np.empty((2, n, 2))
-    duration, complete = finish(balls, table.world, until, ends[0], ends[1])
+    duration, complete = finish(balls, table.world, until, most, ends[0], ends[1])
     events, segments = log.counts
     return Trajectory(
         table,
@@ -91,9 +92,9 @@ def run_many(start_layout, work, world, velocities, until, log, ends):
     for shot in range(len(velocities)):
         lay_out(start_layout, balls, cells, schedule)
         log.counts[0] = 0
-        start(balls, world, cells, schedule, velocities[shot], log)
-        run(balls, world, cells, schedule, cluster, until, log)
-        durations[shot], _ = finish(balls, world, until, finals[shot], final_velocities)
+        most = start(balls, world, cells, schedule, velocities[shot], log)
+        run(balls, world, cells, schedule, cluster, until, most, log)
+        durations[shot], _ = finish(balls, world, until, most, finals[shot], final_velocities)
         counts[shot] = log.counts[0]
 
 
@@ -113,22 +114,31 @@ def lay_out(start_layout, balls, cells, schedule):
 
 @kernel
 def start(balls, world, cells, schedule, velocities, log):
-    """Give the first balls their velocities, (n or 1, 2) in m/s, and find all next events."""
+    """Give the first balls their velocities, (n or 1, 2) in m/s, and find all next events.
+
+    Returns `most_energy`.
+    """
     for i in range(len(velocities)):
         set_velocity(balls[i], velocities[i, 0], velocities[i, 1])
     for i in range(len(balls)):
         log_motion(balls, i, 0.0, log)
     predict_all(balls, world, cells, schedule, 0.0)
+    return most_energy(balls, world, velocities)
 
 
 @kernel
-def run(balls, world, cells, schedule, cluster, until, log):
-    """Play all events up to `until`; return False where the log must be enlarged first."""
+def run(balls, world, cells, schedule, cluster, until, most, log):
+    """Play all events up to `until`, or until a ball runs away with more than `most`.
+
+    Returns False where the log must be enlarged first.
+    """
     while True:
         now, a = schedule[1].t, schedule[1].ball
         if not now <= until or now == np.inf:
             return True
         ball = balls[a]
+        if runs_away(ball.speed, ball.inverse_mass, most):
+            return True
         b = ball.partner
         if ball.crossing < ball.contact:
             cross(balls, world, cells, schedule, a, now)
@@ -177,13 +187,17 @@ def stop(balls, world, cells, schedule, a, now, log):
 
 
 @kernel
-def finish(balls, world, until, positions, velocities):
-    """Fill in the state at the end, (n, 2) each; return the duration and whether all balls rest."""
-    duration, complete = 0.0, True
+def finish(balls, world, until, most, positions, velocities):
+    """Fill in the state at the end, (n, 2) each; return the duration and whether all balls rest.
+
+    The duration is NaN where a ball has run away.
+    """
+    duration, complete, lost = 0.0, True, False
     for i in range(len(balls)):
         ball = balls[i]
         if ball.speed > 0.0:
             complete = False
+            lost |= runs_away(ball.speed, ball.inverse_mass, most)
             positions[i, 0], positions[i, 1] = position_at(ball, until, world.deceleration)
             speed = speed_at(ball, until, world.deceleration)
             velocities[i, 0], velocities[i, 1] = ball.ux * speed, ball.uy * speed
@@ -191,4 +205,6 @@ def finish(balls, world, until, positions, velocities):
             duration = max(duration, ball.since)
             positions[i, 0], positions[i, 1] = ball.x, ball.y
             velocities[i, 0], velocities[i, 1] = 0.0, 0.0
+    if lost:
+        return np.nan, False
     return (duration if complete else until), complete

@@ -21,6 +21,9 @@ INTEGRATORS = ('event', 'time_slice')
 REPORT_TIME_SLICE = 1e-6
 """The report's slice in s (Listing 2)."""
 
+MAX_SPEED = 1e6
+"""Of a ball at the start, along each axis, m/s."""
+
 CHUNK = 4096
 """Shots that one thread takes at a time: long beside handing them out, short beside a million."""
 
@@ -40,7 +43,7 @@ def simulate(
     ----------
     table : Table
     velocities : array_like of shape (2,) or (n, 2)
-        Of the cue ball alone, or of every ball, m/s.
+        Of the cue ball alone, or of every ball, each component at most 1e6 m/s.
     positions : array_like of shape (n, 2), optional
         Where the balls start instead of their own places, m.
     integrator : {'event', 'time_slice'}, optional
@@ -57,15 +60,20 @@ def simulate(
     Raises
     ------
     ValueError
-        For a wrong shape, a value that is not finite, balls that overlap or lie outside, an
-        unknown integrator.
+        For a wrong shape, a value that is not finite or out of range, balls that overlap or lie
+        outside, an unknown integrator; and for a shot to which the `report` law of friction gives
+        energy without end.
     """
     at_rest, limit = _check(table, positions, integrator, time_slice, until)
-    moving = _velocities(table, velocities, (1, 2))
-    _check_end(table, moving, until)
+    moving, fastest = _velocities(table, velocities, (1, 2))
+    _check_end(table, fastest, until, integrator, time_slice)
     if integrator == 'event':
-        return event_driven.play(table, at_rest, moving, limit)
-    return time_slicing.play(table, at_rest, moving, time_slice, limit)
+        trajectory = event_driven.play(table, at_rest, moving, limit)
+    else:
+        trajectory = time_slicing.play(table, at_rest, moving, time_slice, limit)
+    if math.isnan(trajectory.duration):
+        raise _gains_energy(table, 'this shot')
+    return trajectory
 
 
 def simulate_many(
@@ -83,7 +91,7 @@ def simulate_many(
     ----------
     table : Table
     velocities : array_like of shape (m, 2) or (m, n, 2)
-        For each shot that of the cue ball alone, or of every ball, m/s.
+        For each shot that of the cue ball alone, or of every ball, each component at most 1e6 m/s.
     positions, integrator, time_slice, until
         As in `simulate`, the same for all shots.
 
@@ -106,8 +114,8 @@ def simulate_many(
     Bit for bit what `simulate` gives one by one.
     """
     at_rest, limit = _check(table, positions, integrator, time_slice, until)
-    moving = _velocities(table, velocities, (2, 3))
-    _check_end(table, moving, until)
+    moving, fastest = _velocities(table, velocities, (2, 3))
+    _check_end(table, fastest, until, integrator, time_slice)
     shots = len(moving)
     finals = np.empty((shots, len(at_rest), 2))
     durations = np.empty(shots)
@@ -129,6 +137,9 @@ def simulate_many(
     else:
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(play, chunks))
+    given_up = np.isnan(durations)
+    if given_up.any():
+        raise _gains_energy(table, f'shot {given_up.argmax()}')
     return finals, durations, counts
 
 
@@ -180,14 +191,33 @@ def _velocities(table, velocities, dimensions):
             f'velocities: shape {array.shape} must be ({shots}2) for the cue ball alone or '
             f'({shots}{n}, 2)'
         )
-    if not np.isfinite(array).all():
-        raise ValueError(f'velocities: {array[~np.isfinite(array)][0]} is not finite')
-    return np.ascontiguousarray(array)
+    fastest = float(np.abs(array).max(initial=0.0))
+    if not fastest <= MAX_SPEED:
+        if not math.isfinite(fastest):
+            raise ValueError(f'velocities: {array[~np.isfinite(array)][0]} is not finite')
+        raise ValueError(f'velocities: {fastest:g} m/s must be at most {MAX_SPEED:g}')
+    return np.ascontiguousarray(array), fastest
 
 
-def _check_end(table, velocities, until):
-    if until is None and table.deceleration == 0.0 and velocities.any():
+def _check_end(table, fastest, until, integrator, time_slice):
+    """Raise ValueError where balls of up to `fastest` m/s would never come to rest."""
+    if until is not None or fastest == 0.0:
+        return
+    if table.deceleration == 0.0:
         raise ValueError('until: None must be a time where mu_ball_surface is 0: nothing ends it')
+    # A light ball that a heavy one strikes is faster than either was.
+    if integrator == 'time_slice' and time_slice * table.deceleration < np.spacing(1e3 * fastest):
+        raise ValueError(
+            f'time_slice: {time_slice} is too short: a ball at {fastest:g} m/s loses no speed in it'
+        )
+
+
+def _gains_energy(table, shot):
+    """Return the error for a shot that was given up, which its duration of NaN says."""
+    return ValueError(
+        f"mu_ball_ball: {table.mu_ball_ball} is too large here: the law 'report' gives {shot} "
+        "energy without end; make it smaller, or use the law 'coulomb'"
+    )
 
 
 def _array(name, values):

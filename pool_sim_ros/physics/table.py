@@ -17,6 +17,15 @@ INCH = 0.0254
 
 BALL_FRICTION_LAWS = ('report', 'coulomb')
 
+MASSES = (1e-9, 1e9)
+RADII = (1e-6, 1e3)
+MAX_SIZE = 1e4
+GRAVITIES = (1e-6, 1e6)
+MAX_FRICTION = 1e3
+MIN_DECELERATION = 1e-9
+"""Ranges in SI units, far beyond any table: within them no calculation here overflows, and a
+rounding error of a place stays well below `layout.OVERLAP`."""
+
 
 @dataclass(frozen=True)
 class Ball:
@@ -27,9 +36,9 @@ class Ball:
     label : str
         What is written on it, unique on its table.
     mass : float
-        kg.
+        1e-9 to 1e9 kg.
     radius : float
-        m.
+        1e-6 to 1e3 m.
     position : tuple of float
         Centre (x, y) on the cloth, m.
     color : tuple of float, optional
@@ -54,8 +63,8 @@ class Ball:
         name = f'ball {self.label!r}'
         if not isinstance(self.label, str) or not self.label:
             raise ValueError(f'{name}: label must be a non-empty string')
-        _store(self, 'mass', number(f'{name}: mass', self.mass, above=0.0))
-        _store(self, 'radius', number(f'{name}: radius', self.radius, above=0.0))
+        _store(self, 'mass', number(f'{name}: mass', self.mass, *MASSES))
+        _store(self, 'radius', number(f'{name}: radius', self.radius, *RADII))
         _store(self, 'position', numbers(f'{name}: position', self.position, 2))
         _store(self, 'color', numbers(f'{name}: color', self.color, 3, 0.0, 1.0))
         _store(self, 'is_cue', bool(self.is_cue))
@@ -71,16 +80,17 @@ class Table:
     Parameters
     ----------
     length, width : float
-        Size of the cloth between the cushions, m.
+        Size of the cloth between the cushions, at most 1e4 m.
     balls : iterable of Ball
         At least one; none overlaps another or a cushion by more than 1e-9 m.
     mu_ball_ball, mu_ball_surface, mu_ball_cushion : float, optional
-        Coefficients of friction, at least 0.
+        Coefficients of friction, 0 to 1000. Where the cloth slows the balls at all, it does so
+        by at least 1e-9 m/s^2.
     e_cue_ball, e_ball_ball, e_ball_cushion : float, optional
         Coefficients of restitution, 0 to 1: a pair with the cue ball, any
         other pair, a ball and a cushion.
     gravity : float, optional
-        m/s^2.
+        1e-6 to 1e6 m/s^2.
     ball_friction : {'report', 'coulomb'}, optional
         The law of friction between two balls.
 
@@ -108,10 +118,16 @@ class Table:
     ball_friction: str = 'report'
 
     def __post_init__(self) -> None:
-        for name in ('length', 'width', 'gravity'):
-            _store(self, name, number(name, getattr(self, name), above=0.0))
+        for name in ('length', 'width'):
+            _store(self, name, number(name, getattr(self, name), above=0.0, most=MAX_SIZE))
+        _store(self, 'gravity', number('gravity', self.gravity, *GRAVITIES))
         for name in ('mu_ball_ball', 'mu_ball_surface', 'mu_ball_cushion'):
-            _store(self, name, number(name, getattr(self, name), least=0.0))
+            _store(self, name, number(name, getattr(self, name), least=0.0, most=MAX_FRICTION))
+        if 0.0 < self.deceleration < MIN_DECELERATION:
+            raise ValueError(
+                f'mu_ball_surface: {self.mu_ball_surface} must be 0 or at least '
+                f'{MIN_DECELERATION / self.gravity:.3g}, so that the balls stop some day'
+            )
         for name in ('e_cue_ball', 'e_ball_ball', 'e_ball_cushion'):
             _store(self, name, number(name, getattr(self, name), least=0.0, most=1.0))
         if self.ball_friction not in BALL_FRICTION_LAWS:

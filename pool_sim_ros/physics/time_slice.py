@@ -29,6 +29,7 @@ from pool_sim_ros.physics.record import (
     log_segment,
     new_log,
 )
+from pool_sim_ros.physics.runaway import most_energy, runs_away
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
 
@@ -49,6 +50,7 @@ class Slices(NamedTuple):
     moving: np.ndarray  # by ball: at the start of this slice
     changed: np.ndarray  # by ball: whether something other than the cloth changed its motion
     clock: np.ndarray  # the slice now, and the earliest of `due`
+    most: float  # with more energy than this a ball runs away, see `most_energy`
 
 
 def play(
@@ -63,8 +65,8 @@ def play(
     log_start(state, log)
     while not run(state, at_rest, table.world, step, loss, last, log):
         log = enlarged(log)
+    duration = ended(state, at_rest, step, until)
     complete = not state.v.any()
-    duration = float(state.clock[0] * step) if complete else until
     events, segments = log.counts
     return Trajectory(
         table, state.x, state.v, duration, log.events[:events], log.segments[:segments], complete
@@ -88,13 +90,13 @@ def play_many(
         log = new_log(0, 0, wanted=False)
         run(state, at_rest, table.world, step, loss, last_slice(until, step), log)
         finals[shot] = state.x
-        durations[shot] = until if state.v.any() else state.clock[0] * step
+        durations[shot] = ended(state, at_rest, step, until)
         counts[shot] = log.counts[0]
 
 
 def last_slice(until: float, step: float) -> int:
     """Return the slice nearest to `until`."""
-    return NEVER if math.isinf(until) else round(until / step)
+    return round(min(until / step, 1e18))
 
 
 @kernel
@@ -110,6 +112,7 @@ def new_state(table: Table, at_rest: np.ndarray, velocities: np.ndarray) -> Slic
     v = np.zeros((n, 2))
     v[: len(velocities)] = velocities
     return Slices(
+        most=most_energy(at_rest, table.world, velocities),
         x=np.column_stack([at_rest['x'], at_rest['y']]),
         v=v,
         mass=table.masses,
@@ -121,9 +124,19 @@ def new_state(table: Table, at_rest: np.ndarray, velocities: np.ndarray) -> Slic
     )
 
 
+def ended(state: Slices, balls: np.ndarray, step: float, until: float) -> float:
+    """Return how long the shot took, in s; NaN where a ball has run away."""
+    if not state.v.any():
+        return float(state.clock[0] * step)
+    energies = (state.v**2).sum(axis=1) / balls['inverse_mass']
+    return math.nan if (energies > state.most).any() else until
+
+
 @kernel
 def run(state, balls, world, step, loss, last, log):
-    """Take slices until all rest or `last` is done; return False where the log must be enlarged.
+    """Take slices until all rest, `last` is done or a ball runs away.
+
+    Returns False where the log must be enlarged.
 
     `step` is the slice in s, `loss` the speed that a ball loses in it, m/s.
     """
@@ -145,11 +158,16 @@ def run(state, balls, world, step, loss, last, log):
                 meet_cushions(state, balls, world, i, now, log)
         if state.clock[1] <= state.clock[0]:
             meet_balls(state, balls, world, step, now, log)
+        lost = False
         for i in range(n):
             if state.changed[i]:
                 state.changed[i] = False
+                speed = math.sqrt(state.v[i, 0] * state.v[i, 0] + state.v[i, 1] * state.v[i, 1])
+                lost |= runs_away(speed, balls[i].inverse_mass, state.most)
                 log_motion(state, i, now, log)
             state.moving[i] = state.v[i, 0] != 0.0 or state.v[i, 1] != 0.0
+        if lost:
+            return True
     return True
 
 

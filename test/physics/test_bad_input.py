@@ -26,10 +26,14 @@ def one_line(caught):
         ('mass', -0.1, '-0.1'),
         ('mass', math.nan, 'nan'),
         ('mass', math.inf, 'inf'),
+        ('mass', 1e-320, 'at least 1e-09'),
+        ('mass', 1e308, 'at most 1e+09'),
         ('mass', 'heavy', 'heavy'),
         ('mass', None, 'None'),
         ('radius', 0.0, '0'),
         ('radius', -1.0, '-1'),
+        ('radius', 5e-10, 'at least 1e-06'),
+        ('radius', 1e4, 'at most 1000'),
         ('radius', math.nan, 'nan'),
         ('position', (math.nan, 0.5), 'nan'),
         ('position', (0.5, -math.inf), 'inf'),
@@ -53,19 +57,26 @@ def test_ball(field, value, shown):
 
 
 @pytest.mark.parametrize('field', ['length', 'width', 'gravity'])
-@pytest.mark.parametrize('value', [0.0, -1.0, math.nan, math.inf, 'wide', None])
+@pytest.mark.parametrize('value', [0.0, -1.0, 1e300, math.nan, math.inf, 'wide', None])
 def test_table_size(field, value):
-    with pytest.raises(ValueError, match=f'{field}.*{str(value)[:2]}') as caught:
+    with pytest.raises(ValueError, match=f'{field}: .*{str(value)[:2]}') as caught:
         Table(**{**GOOD_TABLE, field: value})
     one_line(caught)
 
 
 @pytest.mark.parametrize('field', ['mu_ball_ball', 'mu_ball_surface', 'mu_ball_cushion'])
-@pytest.mark.parametrize('value', [-1e-9, math.nan, math.inf, 'rough'])
+@pytest.mark.parametrize('value', [-1e-9, 1e4, math.nan, math.inf, 'rough'])
 def test_coefficients_of_friction(field, value):
     with pytest.raises(ValueError, match=f'{field}.*{value}') as caught:
         Table(**{**GOOD_TABLE, field: value})
     one_line(caught)
+
+
+@pytest.mark.parametrize('values', [{'mu_ball_surface': 1e-300}, {'gravity': 1e-300}])
+def test_a_cloth_that_would_take_for_ever(values):
+    with pytest.raises(ValueError, match='at least') as caught:
+        Table(**GOOD_TABLE, **values)
+    assert next(iter(values)) in one_line(caught)
 
 
 @pytest.mark.parametrize('field', ['e_cue_ball', 'e_ball_ball', 'e_ball_cushion'])
@@ -126,6 +137,9 @@ def test_touching_within_the_tolerance_is_allowed():
     [
         ('velocities', (math.nan, 0.0)),
         ('velocities', (0.0, math.inf)),
+        ('velocities', (1.1e6, 0.0)),
+        ('velocities', (0.0, -1e154)),
+        ('velocities', (1e308, 1e308)),
         ('velocities', 3.0),
         ('velocities', (1.0, 2.0, 3.0)),
         ('velocities', [(1.0, 0.0, 0.0)] * 3),
@@ -143,6 +157,7 @@ def test_touching_within_the_tolerance_is_allowed():
         ('integrator', None),
         ('time_slice', 0.0),
         ('time_slice', -1e-6),
+        ('time_slice', 1e-300),
         ('time_slice', math.nan),
         ('time_slice', math.inf),
         ('time_slice', 'short'),
@@ -177,6 +192,22 @@ def test_without_surface_friction_until_is_required(solve, integrator):
     for until in (None, math.inf):
         with pytest.raises(ValueError, match='until'):
             solve(table, velocities, integrator=integrator, until=until)
+
+
+@pytest.mark.parametrize('integrator', ['event', 'time_slice'])
+def test_the_fastest_shot_that_is_taken(integrator):
+    table = table_of([(0.5, 0.5), (1.0, 0.5)], mu_ball_surface=100.0)
+    shot = simulate(table, (1e6, 3e5), integrator=integrator, time_slice=1e-3, until=1.0)
+    assert np.isfinite(shot.final_positions).all() and np.isfinite(shot.final_velocities).all()
+
+
+def test_a_clock_beyond_all_slices_is_no_limit():
+    table = table_of([(0.5, 0.5)])
+    shots = [
+        simulate(table, (1.0, 0.0), integrator='time_slice', time_slice=1e-5, until=until)
+        for until in (None, 1e30, 1e308)
+    ]
+    assert {shot.duration for shot in shots} == {shots[0].duration}
 
 
 def test_the_table_is_not_to_be_changed():

@@ -59,7 +59,6 @@ def velocities_of(table):
 
 SETTINGS = settings(
     max_examples=40,
-    deadline=None,
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
