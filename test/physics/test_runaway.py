@@ -64,6 +64,6 @@ def test_against_the_plain_twin(law, struck, fastest):
         energy = naive.runaway_energy(table, velocities)
         assert most == pytest.approx(2.0 * energy, rel=1e-12)
         for ball, record in zip(table.balls, table.balls_at_rest, strict=True):
-            for speed in (0.0, 1.0, 9.0 * fastest, 100.0 * fastest, 1e7):
+            for speed in (0.0, 1.0, 9.3 * fastest, 97.0 * fastest, 1e7):
                 away = 0.5 * ball.mass * speed**2 > energy
                 assert runs_away(speed, record['inverse_mass'], most) == away
