@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pool_sim_ros.physics.kernel import inlined, kernel
+from pool_sim_ros.physics.resting import Resting, new_resting
 
 FEW = 40
 """Balls up to which the table is one cell; cells pay from about here."""
@@ -24,23 +25,25 @@ class Cells(NamedTuple):
     """The grid, and the first ball of each cell; `BALL` has the next ones."""
 
     first: np.ndarray  # (rows, columns), -1 for an empty cell
-    near: np.ndarray  # room for the numbers of all balls; holds them where there is but one cell
+    near: np.ndarray  # room for the numbers of all balls; holds them where the table has few
     moving: np.ndarray  # the same for those that move
+    resting: Resting  # kept where the table has few balls
     width: float  # m
     height: float  # m
 
 
-def new_cells(length: float, width: float, radii: np.ndarray) -> Cells:
+def new_cells(length: float, width: float, balls: np.ndarray) -> Cells:
     """Return an empty grid for a table of `length` x `width` m."""
     columns = rows = 1
-    n = len(radii)
+    n = len(balls)
     if n > FEW:
-        widest = 2.0 * radii.max() * (1.0 + SPARE)
+        widest = 2.0 * balls['radius'].max() * (1.0 + SPARE)
         side = max(widest, np.sqrt(length * width / (n * CELLS_PER_BALL)))
         columns, rows = max(int(length / side), 1), max(int(width / side), 1)
     first = np.full((rows, columns), -1, np.int32)
-    near = np.arange(n, dtype=np.int32)
-    return Cells(first, near, np.empty_like(near), length / columns, width / rows)
+    near = np.arange(n)
+    resting = new_resting(balls if first.size == 1 else balls[:0])
+    return Cells(first, near, np.empty_like(near), resting, length / columns, width / rows)
 
 
 @kernel
@@ -81,10 +84,24 @@ def leave(balls, cells, i):
 @inlined
 def neighbours(balls, cells, i):
     """Write the balls that ball `i` may touch, and itself, into `near`; return their number."""
-    if cells.first.size == 1:
+    if has_few(cells):
         return len(balls)
     x, y = balls[i].cell_x, balls[i].cell_y
     return list_cells(balls, cells, x - 1, x + 1, y - 1, y + 1)
+
+
+@inlined
+def has_few(cells):
+    """Return whether the table is one cell, whose `resting` is kept."""
+    return len(cells.resting.x) > 0
+
+
+@inlined
+def all_moving(balls, cells, i):
+    """Return an array, and how many of it to look at for all that move and ball `i` may touch."""
+    if has_few(cells):
+        return cells.resting.moving, cells.resting.count[0]
+    return cells.near, neighbours(balls, cells, i)
 
 
 @inlined

@@ -62,8 +62,8 @@ def new_cluster(n: int) -> Cluster:
     """
     return Cluster(
         np.zeros(7 * n, CONTACT),
-        np.zeros(n, np.int32),
-        np.full(n, -1, np.int32),
+        np.zeros(n, np.int64),
+        np.full(n, -1),
         *(np.zeros(n) for _ in range(5)),
     )
 

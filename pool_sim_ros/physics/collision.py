@@ -1,6 +1,6 @@
 """Resolve what is due: one contact in closed form, several of one instant together."""
 
-from pool_sim_ros.physics.cells import neighbours
+from pool_sim_ros.physics.cells import all_moving, has_few
 from pool_sim_ros.physics.cluster import TOUCHING, gather, move_as_one, resolve, take_alone
 from pool_sim_ros.physics.contact import (
     collide_balls,
@@ -12,6 +12,7 @@ from pool_sim_ros.physics.contact import (
 from pool_sim_ros.physics.kernel import inlined, kernel
 from pool_sim_ros.physics.motion import CUSHION_X0, CUSHION_X1, position_at, set_velocity, speed_at
 from pool_sim_ros.physics.record import BALL_BALL, CUSHION, log_event, log_segment
+from pool_sim_ros.physics.resting import touches_resting
 
 V_MIN = 1e-4
 """Contacts that close slower, in m/s, are weak: they take no part in another's instant, and may
@@ -57,12 +58,16 @@ def is_touched(balls, world, cells, i, but, now):
     x, y = position_at(ball, now, world.deceleration)
     if moves and touches_cushion(world, x, y, ball.radius, CUSHION_X0 - but):
         return True
-    for m in range(neighbours(balls, cells, i)):
-        k = cells.near[m]
+    near = ball.radius + TOUCHING
+    if has_few(cells) and touches_resting(cells.resting, x, y, near, i, but):
+        return True
+    others, count = all_moving(balls, cells, i)
+    for m in range(count):
+        k = others[m]
         other = balls[k]
         xk, yk = position_at(other, now, world.deceleration)
-        near = ball.radius + other.radius + TOUCHING
-        close = (xk - x) * (xk - x) + (yk - y) * (yk - y) <= near * near
+        touch = near + other.radius
+        close = (xk - x) * (xk - x) + (yk - y) * (yk - y) <= touch * touch
         if close and k != i and k != but:
             return True
     return False

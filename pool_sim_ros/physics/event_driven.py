@@ -21,13 +21,16 @@ from pool_sim_ros.physics.prediction import (
     lay_down,
     predict,
     predict_after,
-    predict_all,
 )
 from pool_sim_ros.physics.record import STOPPED, enlarged, has_room, log_event, new_log
+from pool_sim_ros.physics.resting import note_motion
 from pool_sim_ros.physics.runaway import most_energy, runs_away
 from pool_sim_ros.physics.schedule import new_schedule
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
+
+NOBODY = np.int64(0)
+"""How many have looked at a ball's pairs already. Not a literal: each compiles all anew."""
 
 FIRST_ROOM = 64
 """Events beyond one a ball that a log holds before it is enlarged; most shots have fewer."""
@@ -69,8 +72,8 @@ def play_many(
     """Play shots and fill in their ends; see `simulate_many`."""
     balls, cells = laid_out(table, at_rest)
     n = len(balls)
-    start_layout = balls, cells.first, new_schedule(n)
-    work = balls.copy(), cells._replace(first=cells.first.copy()), new_schedule(n), new_cluster(n)
+    start_layout = balls.copy(), cells.first.copy(), new_schedule(n)
+    work = balls, cells, new_schedule(n), new_cluster(n)
     log = new_log(0, 0, wanted=False)
     ends = finals, np.empty((n, 2)), durations, counts
     run_many(start_layout, work, table.world, velocities, until, log, ends)
@@ -79,7 +82,7 @@ def play_many(
 def laid_out(table: Table, at_rest: np.ndarray) -> tuple[np.ndarray, Cells]:
     """Return a copy of the balls, and the cells in which they lie."""
     balls = at_rest.copy()
-    cells = new_cells(table.length, table.width, table.radii)
+    cells = new_cells(table.length, table.width, balls)
     fill(balls, cells)
     return balls, cells
 
@@ -104,6 +107,7 @@ def lay_out(start_layout, balls, cells, schedule):
     balls_at_start, first_at_start, nothing_due = start_layout
     for i in range(len(balls)):
         balls[i] = balls_at_start[i]
+        note_motion(cells.resting, balls, i)
     for k in range(len(schedule)):
         schedule[k] = nothing_due[k]
     rows, columns = cells.first.shape
@@ -112,7 +116,7 @@ def lay_out(start_layout, balls, cells, schedule):
             cells.first[row, column] = first_at_start[row, column]
 
 
-@kernel
+@inlined
 def start(balls, world, cells, schedule, velocities, log):
     """Give the first balls their velocities, (n or 1, 2) in m/s, and find all next events.
 
@@ -120,13 +124,15 @@ def start(balls, world, cells, schedule, velocities, log):
     """
     for i in range(len(velocities)):
         set_velocity(balls[i], velocities[i, 0], velocities[i, 1])
+        note_motion(cells.resting, balls, i)
     for i in range(len(balls)):
         log_motion(balls, i, 0.0, log)
-    predict_all(balls, world, cells, schedule, 0.0)
+        if balls[i].speed > 0.0:
+            predict(balls, world, cells, schedule, cells.near, NOBODY, i, 0.0)
     return most_energy(balls, world, velocities)
 
 
-@kernel
+@inlined
 def run(balls, world, cells, schedule, cluster, until, most, log):
     """Play all events up to `until`, or until a ball runs away with more than `most`.
 
@@ -139,12 +145,12 @@ def run(balls, world, cells, schedule, cluster, until, most, log):
         ball = balls[a]
         if runs_away(ball.speed, ball.inverse_mass, most):
             return True
-        b = ball.partner
+        b = np.int64(ball.partner)
         if ball.crossing < ball.contact:
             cross(balls, world, cells, schedule, a, now)
         elif b >= 0 and balls[b].changes != ball.partner_changes:
             ball.contact = np.inf
-            predict(balls, world, cells, schedule, cluster.members, 0, a, now)
+            predict(balls, world, cells, schedule, cells.near, NOBODY, a, now)
         elif not has_room(log, 1, 2):
             return False
         elif b == STOP:
@@ -186,7 +192,7 @@ def stop(balls, world, cells, schedule, a, now, log):
     lay_down(balls, world, cells, schedule, a, now)
 
 
-@kernel
+@inlined
 def finish(balls, world, until, most, positions, velocities):
     """Fill in the state at the end, (n, 2) each; return the duration and whether all balls rest.
 

@@ -58,9 +58,10 @@ class World(NamedTuple):
 
 @inlined
 def position_at(ball, t, deceleration):
-    """Return (x, y) in m of a ball whose motion lasts until `t` at least."""
-    if ball.speed == 0.0:
-        return ball.x, ball.y
+    """Return (x, y) in m of a ball whose motion lasts until `t` at least.
+
+    At rest that is exactly where it is: its direction is zero.
+    """
     elapsed = t - ball.since
     way = elapsed * (ball.speed - 0.5 * deceleration * elapsed)
     return ball.x + ball.ux * way, ball.y + ball.uy * way

@@ -7,7 +7,7 @@ contact falls due: nothing can have come before.
 
 import numpy as np
 
-from pool_sim_ros.physics.cells import move_on, neighbours, ways_out
+from pool_sim_ros.physics.cells import all_moving, has_few, move_on, neighbours, ways_out
 from pool_sim_ros.physics.contact_time import (
     time_to_cover,
     time_to_moving_ball,
@@ -24,15 +24,8 @@ from pool_sim_ros.physics.motion import (
     speed_at,
     stop_time,
 )
+from pool_sim_ros.physics.resting import first_in_the_way, note_motion
 from pool_sim_ros.physics.schedule import put_down
-
-
-@kernel
-def predict_all(balls, world, cells, schedule, now):
-    """Find the next event of every ball."""
-    for i in range(len(balls)):
-        if balls[i].speed > 0.0:
-            predict(balls, world, cells, schedule, cells.near, 0, i, now)
 
 
 @inlined
@@ -40,6 +33,7 @@ def predict_after(balls, world, cells, schedule, changed, count, now):
     """Find the next events of the `count` balls in `changed`, whose motion is new at `now`."""
     for m in range(count):
         balls[changed[m]].contact = np.inf
+        note_motion(cells.resting, balls, changed[m])
     for m in range(count):
         if balls[changed[m]].speed > 0.0:
             predict(balls, world, cells, schedule, changed, m, changed[m], now)
@@ -123,6 +117,26 @@ def meet(balls, world, cells, schedule, count, done, n_done, i, x, y, speed, now
     a = world.deceleration
     lasts = ball.contact - now
     reach = lasts * (speed - 0.5 * a * lasts) if lasts < np.inf else np.inf
+    if has_few(cells):
+        way, partner = first_in_the_way(cells.resting, x, y, ball.ux, ball.uy, ball.radius, reach)
+        moving, n_moving = cells.resting.moving, cells.resting.count[0]
+    else:
+        way, partner, n_moving = first_of_the_near(balls, cells, count, ball, x, y, reach)
+        moving = cells.moving
+    if partner >= 0:
+        book(balls, i, partner, now + time_to_cover(way, speed, a))
+    for m in range(n_moving):
+        j = moving[m]
+        if j != i and not is_among(j, done, n_done):
+            meet_moving(balls, world, schedule, i, j, x, y, speed, now)
+
+
+@inlined
+def first_of_the_near(balls, cells, count, ball, x, y, reach):
+    """Return the way in m to the first resting ball among `count` near ones, and which that is.
+
+    As `first_in_the_way`. Also lists those that move, and returns how many they are.
+    """
     way, partner = reach, STOP
     n_moving = 0
     for m in range(count):
@@ -134,12 +148,7 @@ def meet(balls, world, cells, schedule, count, done, n_done, i, x, y, speed, now
         to_ball = way_to_resting_ball(other.x - x, other.y - y, ball.ux, ball.uy, touch, way)
         if (to_ball < way) & (other.speed == 0.0):
             way, partner = to_ball, j
-    if partner >= 0:
-        book(balls, i, partner, now + time_to_cover(way, speed, a))
-    for m in range(n_moving):
-        j = cells.moving[m]
-        if j != i and not is_among(j, done, n_done):
-            meet_moving(balls, world, schedule, i, j, x, y, speed, now)
+    return way, partner, n_moving
 
 
 @inlined
@@ -195,9 +204,11 @@ def lay_down(balls, world, cells, schedule, j, now):
     other = balls[j]
     a = world.deceleration
     other.contact = other.crossing = np.inf
+    note_motion(cells.resting, balls, j)
     put_down(schedule, j, np.inf)
-    for m in range(neighbours(balls, cells, j)):
-        i = cells.near[m]
+    others, count = all_moving(balls, cells, j)
+    for m in range(count):
+        i = others[m]
         ball = balls[i]
         if ball.speed == 0.0:
             continue
