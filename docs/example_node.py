@@ -1,8 +1,10 @@
 """A node that shoots when the balls rest, and says where the cue ball stopped."""
 import json
+import uuid
 
 import rclpy
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
 
@@ -10,18 +12,20 @@ class Shooter(Node):
     def __init__(self):
         super().__init__('shooter')
         self.requests = self.create_publisher(String, 'pool_sim/shot/request', 10)
-        self.create_subscription(String, 'pool_sim/shot/response', self.on_response, 10)
+        latched = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.create_subscription(String, 'pool_sim/shot/response', self.on_response, latched)
+        self.id = uuid.uuid4().hex
         self.timer = self.create_timer(0.5, self.shoot)
 
     def shoot(self):
         if self.requests.get_subscription_count():  # somebody listens
             self.timer.cancel()
-            request = {'id': 'example', 'velocity': [-2.0, 0.3]}
+            request = {'id': self.id, 'velocity': [-2.0, 0.3]}
             self.requests.publish(String(data=json.dumps(request)))
 
     def on_response(self, message):
         response = json.loads(message.data)
-        if response['phase'] != 'accepted':
+        if response['id'] == self.id and response['phase'] != 'accepted':
             print(response['phase'], response['reason'] or response['final_positions']['C'])
             raise SystemExit
 

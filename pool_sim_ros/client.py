@@ -20,8 +20,9 @@ from pool_sim_ros.protocol import Phase
 NAP = 0.1
 """Seconds at most between two looks at what was waited for."""
 
-IDLE_STATES = 3
-"""States in a row that show neither a shot nor a pause, after which a shot in hand is lost."""
+IDLE_STATES = 6
+"""States in a row, each of a later tick, that show neither a shot nor a pause: the shot is lost. It
+begins one tick after it was computed, and that it is done may be heard late."""
 
 
 class SimulatorError(Exception):
@@ -59,6 +60,7 @@ class ShotClient:
         self._id = ''
         self._answers: list[dict] = []
         self._idle_states = 0
+        self._tick = -1
         self._paused = False
         self._last_sign = time.monotonic()
 
@@ -231,5 +233,8 @@ class ShotClient:
         self._last_sign = time.monotonic()
         state = json.loads(message.data)
         self._paused = state['paused']
-        idle = not (state['paused'] or state['moving'] or state['computing'])
-        self._idle_states = self._idle_states + 1 if idle else 0
+        if state['paused'] or state['moving'] or state['computing']:
+            self._idle_states = 0
+        elif state['tick'] != self._tick:
+            self._idle_states += 1
+        self._tick = state['tick']

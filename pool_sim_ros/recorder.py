@@ -71,13 +71,17 @@ class Recorder:
         self._subscriptions = [self._listen(topic) for topic in TOPICS]
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(self._node)
+        self._closing = threading.Event()
         self._thread = threading.Thread(target=self._spin, name='recorder', daemon=True)
         self._thread.start()
 
     def close(self) -> None:
         """Listen no more."""
-        self._executor.shutdown(0.0)
+        # Not shutdown() first: the thread may be in the midst of what that takes away.
+        self._closing.set()
+        self._executor.wake()
         self._thread.join()
+        self._executor.shutdown(0.0)
         self._node.destroy_node()
 
     def wait_for_topics(self, timeout: float) -> None:
@@ -87,8 +91,8 @@ class Recorder:
     def wait_for_end(self, response: dict, timeout: float) -> None:
         """Wait until all of a shot has come.
 
-        That is both responses to its request, and a frame later than its end: whatever was
-        published with or before its last frame has been taken by then, for the executor takes from
+        That is both responses to its request, and two frames that show its end: whatever was
+        published with or before the first has been taken by then, for the executor takes from
         each topic in turn.
 
         Parameters
@@ -106,8 +110,11 @@ class Recorder:
         end = round(response['t_end'] * 1e9)
 
         def came() -> bool:
-            data = next(m.data for m in reversed(self.messages) if m.topic is interface.BALL_POSES)
-            if conversions.from_time(deserialize_message(data, PoseArray).header.stamp) <= end:
+            frames = [m.data for m in self.messages if m.topic is interface.BALL_POSES]
+            if len(frames) < 2:
+                return False
+            frame = deserialize_message(frames[-2], PoseArray)
+            if conversions.from_time(frame.header.stamp) < end:
                 return False
             texts = [m.data for m in self.messages if m.topic is interface.SHOT_RESPONSE]
             answers = [json.loads(deserialize_message(text, String).data) for text in texts]
@@ -146,6 +153,7 @@ class Recorder:
 
     def _spin(self) -> None:
         try:
-            self._executor.spin()
+            while not self._closing.is_set():
+                self._executor.spin_once(0.5)
         except ExternalShutdownException:
             pass

@@ -105,6 +105,7 @@ class Observer:
         self.node = ros.node()
         self.heard = {topic.name: [] for topic in self.TOPICS}
         self._subscriptions = {}
+        self._clients = {}
         self.responses = []
         for topic in self.TOPICS:
             qos = QoSProfile(
@@ -202,11 +203,13 @@ class Observer:
 
     def call(self, service, **fields):
         """Call a service of the node and return its response."""
-        client = self.node.create_client(service.type, service.of(self._simulator))
+        if service not in self._clients:
+            name = service.of(self._simulator)
+            self._clients[service] = self.node.create_client(service.type, name)
+        client = self._clients[service]
         self._ros.spin_until(client.service_is_ready, service.name)
         future = client.call_async(service.type.Request(**fields))
         self._ros.spin_until(future.done, f'the answer of {service.name}')
-        self.node.destroy_client(client)
         return future.result()
 
 

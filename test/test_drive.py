@@ -13,7 +13,9 @@ from ros_harness import Observer, Process, node_process, start_node
 from test_settings import CONFIG, from_file
 
 from pool_sim_ros import conversions, interface
+from pool_sim_ros.command_log import read_log
 from pool_sim_ros.physics import report_table, simulate
+from pool_sim_ros.session import replay
 from pool_sim_ros.settings import build_settings, values_from
 from pool_sim_ros.table_json import table_from_json
 
@@ -104,7 +106,7 @@ def test_what_is_no_layout_is_rejected_naming_the_ball(ros, places, words):
 
 
 def test_balls_are_not_placed_while_they_move(ros):
-    ros.sim_node(report_integrator='event')
+    node = ros.sim_node(report_integrator='event', real_time_factor=0.05)
     observer = Observer(ros).wait_for_match()
     placer = Placer(ros, observer)
     asked = observer.ask(shot=3)
@@ -112,6 +114,7 @@ def test_balls_are_not_placed_while_they_move(ros):
     placer.place(START)
     values = placer.wait_for(lambda v: v['rejected commands'] == '1', 'the rejection')
     assert 'moving' in values['last rejection']
+    node.set_parameters([Parameter('real_time_factor', value=10.0)])
     done = observer.wait_for_phase(asked, 'done')
     shot = simulate(report_table(), done['velocity'])
     assert np.array_equal(list(done['final_positions'].values()), shot.final_positions)
@@ -254,6 +257,8 @@ def test_a_session_is_replayed_with_the_same_bytes_on_the_topics(ros, tmp_path):
         ros.spin_until(reader.matched, 'the reader')
         for fields in ({'shot': 1}, {'velocity': [-3.3, 0.7]}, {'shot': 4}):
             observer.wait_for_phase(observer.ask(**fields), 'done')
+        wanted = sum(len(frame.collisions) > 0 for frame in replay(*read_log(log)))
+        ros.spin_until(lambda: len(reader.heard['collisions']) == wanted, 'all contacts')
         process.interrupt()
         assert process.wait() == 0
     recorded = reader.heard
@@ -262,7 +267,9 @@ def test_a_session_is_replayed_with_the_same_bytes_on_the_topics(ros, tmp_path):
     with Process('replay', str(log), '--speed', '20', '--wait',
                  '--ros-args', '-r', '__node:=replayed') as process:
         ros.spin_until(
-            lambda: again.heard['ball_poses'][-1:] == recorded['ball_poses'][-1:], 'the last frame'
+            lambda: again.heard['ball_poses'][-1:] == recorded['ball_poses'][-1:]
+            and len(again.heard['collisions']) == wanted,
+            'the last frame and all contacts',
         )
         assert process.wait() == 0
     with Process('replay', str(log), '--digest') as process:

@@ -55,10 +55,10 @@ def varied_session(player, output):
     player.apply(replace(SETTINGS, real_time_factor=1.0))
     player.request('{"velocity": [-5, 1]}')
     wait_until(lambda: output.all('frame')[-1].velocities.any(), 'motion')
+    player.set_paused(True)
     player.reset()
     player.apply(SETTINGS)
     assert player.place(ELSEWHERE * 1.001) is None
-    player.set_paused(True)
     response = player.request('3')
     player.step()
     player.set_paused(False)

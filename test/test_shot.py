@@ -21,6 +21,7 @@ def other_simulator(real_time_factor=0.01):
 
 
 STRIKE_OTHER = ['--velocity', '-1', '0', '--node', 'other']
+PATIENT = ['--timeout', '60']
 
 
 @pytest.fixture(scope='module')
@@ -31,7 +32,7 @@ def simulator(domain):
 
 def test_shots_are_printed_in_the_form_of_the_log(simulator):
     table = report_table()
-    with Process('shot', '1') as shot:
+    with Process('shot', '1', *PATIENT) as shot:
         assert shot.wait() == 0, shot.stderr
         accepted, _, log = shot.stdout.partition('\n')
         assert 'accepted' in accepted and '-4.000' in accepted and 'time_slice' in accepted
@@ -40,7 +41,7 @@ def test_shots_are_printed_in_the_form_of_the_log(simulator):
         assert log.count('(in)') == len(table.balls)
         assert '\r' not in shot.stdout and shot.stderr == ''
     ends = simulate(table, (-4.0, 0.0), integrator='time_slice').final_positions
-    with Process('shot', '--velocity', '-2', '0.5') as shot:
+    with Process('shot', '--velocity', '-2', '0.5', *PATIENT) as shot:
         assert shot.wait() == 0, shot.stderr
         end = simulate(table, (-2.0, 0.5), positions=ends).final_positions
         assert format_position('C', end[0]) in shot.stdout
@@ -51,7 +52,7 @@ def test_a_node_of_another_name_in_a_namespace(domain):
     names = ['--ros-args', '-r', '__ns:=/hall']
     with (
         node_process(*names, '-r', '__node:=left', **QUICK),
-        Process('shot', '3', '--node', 'left', *names) as shot,
+        Process('shot', '3', '--node', 'left', *PATIENT, *names) as shot,
     ):
         assert shot.wait() == 0, shot.stderr
 
@@ -65,7 +66,7 @@ def test_a_node_of_another_name_in_a_namespace(domain):
     ],
 )
 def test_a_rejection_is_one_clear_line_and_status_1(simulator, args, words):
-    with Process('shot', *args) as shot:
+    with Process('shot', *args, *PATIENT) as shot:
         assert shot.wait() == 1
         assert words in shot.stderr and shot.stderr.count('\n') == 1
         assert shot.stdout == ''
@@ -79,7 +80,7 @@ def test_no_node_is_one_clear_line_and_status_1(domain):
 
 def test_a_node_that_dies_in_the_middle_is_one_clear_line_and_status_1(domain):
     with other_simulator() as node:
-        with Process('shot', *STRIKE_OTHER, '--timeout', '6') as shot:
+        with Process('shot', *STRIKE_OTHER, '--timeout', '15') as shot:
             shot.wait_for('accepted')
             node.signal(9)
             assert shot.wait() == 1
@@ -88,7 +89,7 @@ def test_a_node_that_dies_in_the_middle_is_one_clear_line_and_status_1(domain):
 
 def test_a_node_that_is_restarted_in_the_middle_is_one_clear_line_and_status_1(domain):
     with other_simulator() as node:
-        with Process('shot', *STRIKE_OTHER, '--timeout', '30') as shot:
+        with Process('shot', *STRIKE_OTHER, '--timeout', '100') as shot:
             shot.wait_for('accepted')
             node.signal(9)
             node.wait()
@@ -99,7 +100,7 @@ def test_a_node_that_is_restarted_in_the_middle_is_one_clear_line_and_status_1(d
 
 def test_ctrl_c_is_one_clear_line(domain):
     with other_simulator():
-        with Process('shot', *STRIKE_OTHER) as shot:
+        with Process('shot', *STRIKE_OTHER, *PATIENT) as shot:
             shot.wait_for('accepted')
             shot.interrupt()
             assert shot.wait() == 130
@@ -121,7 +122,8 @@ def test_help(domain):
 
 def test_a_terminal_shows_progress(domain):
     terminal, slave = pty.openpty()
-    with other_simulator(1.0), Process('shot', '3', '--node', 'other', stdout=slave) as shot:
+    args = ['3', '--node', 'other', *PATIENT]
+    with other_simulator(0.2), Process('shot', *args, stdout=slave) as shot:
         os.close(slave)
         written = b''
         try:

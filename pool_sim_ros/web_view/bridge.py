@@ -85,6 +85,7 @@ class Bridge:
         )
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(self._node)
+        self._closing = threading.Event()
         self._thread = threading.Thread(target=self._spin, name='ros', daemon=True)
         self._thread.start()
 
@@ -93,10 +94,20 @@ class Bridge:
         """Full name of the node that is talked to."""
         return self._requests.topic_name.removesuffix(f'/{interface.SHOT_REQUEST.name}')
 
+    def is_matched(self) -> bool:
+        """Return whether the simulator hears what is asked of it from now on."""
+        clients = (*self._services.values(), self._set_parameters)
+        return self._requests.get_subscription_count() > 0 and all(
+            client.service_is_ready() for client in clients
+        )
+
     def close(self) -> None:
         """Leave ROS."""
-        self._executor.shutdown(0.0)
+        # Not shutdown() first: the thread may be in the midst of what that takes away.
+        self._closing.set()
+        self._executor.wake()
         self._thread.join()
+        self._executor.shutdown(0.0)
         self._poses.close()
         self._node.destroy_node()
 
@@ -181,6 +192,7 @@ class Bridge:
 
     def _spin(self) -> None:
         try:
-            self._executor.spin()
+            while not self._closing.is_set():
+                self._executor.spin_once(0.5)
         except ExternalShutdownException:
             pass

@@ -20,8 +20,9 @@ from pool_sim_ros.web_view.frames import frame_positions, page_frame
 from pool_sim_ros.web_view.pages import Page, Pages, message
 from pool_sim_ros.web_view.prediction import predict
 
-SILENCE = 3.5
-"""Seconds without `~/state`, which comes every second, after which the simulator is gone."""
+SILENCE = 4
+"""Looks, one a second, that find no `~/state`, which comes every second: the simulator is gone. Not
+simply a time: after a pause of this process itself, what came meanwhile has yet to be read."""
 
 FRAME_PERIOD = 1 / 100
 """Seconds between two looks for a new frame: at real speed one comes every 1/60 s. Of a simulator
@@ -127,13 +128,15 @@ class View:
     def on_state(self, state: object) -> None:
         """Show what goes on."""
         came = self._state is None
+        if came and not self._bridge.is_matched():
+            return  # the next one comes within a second
         self._state = json.loads(state.data)
         self.pages.tell('state', self._state, keep=True)
         if came:
             self._tell_whether_there()
         if self._silence is not None:
             self._silence.cancel()
-        self._silence = self._loop.call_later(SILENCE, self._miss)
+        self._silence = self._loop.call_later(1.0, self._miss, 1)
 
     def on_table(self, table: object) -> None:
         """Show the table."""
@@ -158,7 +161,10 @@ class View:
         else:
             self.pages.show(self._frame)
 
-    def _miss(self) -> None:
+    def _miss(self, looks: int) -> None:
+        if looks < SILENCE:
+            self._silence = self._loop.call_later(1.0, self._miss, looks + 1)
+            return
         self._state = self._frame = None
         self.pages.forget('state')
         self.pages.forget('result')
