@@ -32,6 +32,7 @@ help:
 
 demo: $(INSTALLED)
 	@$(PY) -m pool_sim_ros.demo
+	@echo 'Now play on it yourself, with the mouse: make play'
 
 play: $(INSTALLED)
 	@$(PY) -m pool_sim_ros.play

@@ -1,7 +1,7 @@
 """Resolve what is due: one contact in closed form, several of one instant together."""
 
 from pool_sim_ros.physics.cells import all_moving, has_few
-from pool_sim_ros.physics.cluster import TOUCHING, gather, move_as_one, resolve, take_alone
+from pool_sim_ros.physics.cluster import TOUCHING, gather, take_alone
 from pool_sim_ros.physics.contact import (
     collide_balls,
     collide_cushion,
@@ -9,6 +9,7 @@ from pool_sim_ros.physics.contact import (
     cushion_normal,
     restitution,
 )
+from pool_sim_ros.physics.impulses import move_as_one, resolve
 from pool_sim_ros.physics.kernel import inlined, kernel
 from pool_sim_ros.physics.motion import CUSHION_X0, CUSHION_X1, position_at, set_velocity, speed_at
 from pool_sim_ros.physics.record import BALL_BALL, CUSHION, log_event, log_segment

@@ -15,7 +15,7 @@ from pool_sim_ros.physics.collision import (
     stands_alone,
 )
 from pool_sim_ros.physics.kernel import inlined, kernel
-from pool_sim_ros.physics.motion import STOP, position_at, set_velocity, speed_at
+from pool_sim_ros.physics.motion import STOP, copied, position_at, set_velocity, speed_at
 from pool_sim_ros.physics.prediction import (
     cross,
     lay_down,
@@ -72,7 +72,7 @@ def play_many(
     """Play shots and fill in their ends; see `simulate_many`."""
     balls, cells = laid_out(table, at_rest)
     n = len(balls)
-    start_layout = balls.copy(), cells.first.copy(), new_schedule(n)
+    start_layout = copied(balls), cells.first.copy(), new_schedule(n)
     work = balls, cells, new_schedule(n), new_cluster(n)
     log = new_log(0, 0, wanted=False)
     ends = finals, np.empty((n, 2)), durations, counts
@@ -81,7 +81,7 @@ def play_many(
 
 def laid_out(table: Table, at_rest: np.ndarray) -> tuple[np.ndarray, Cells]:
     """Return a copy of the balls, and the cells in which they lie."""
-    balls = at_rest.copy()
+    balls = copied(at_rest)
     cells = new_cells(table.length, table.width, balls)
     fill(balls, cells)
     return balls, cells

@@ -56,6 +56,11 @@ class World(NamedTuple):
     coulomb: bool
 
 
+def copied(records: np.ndarray) -> np.ndarray:
+    """Return a copy of records, byte by byte: numpy goes field by field, which takes longer."""
+    return records.view(f'V{records.itemsize}').copy().view(records.dtype)
+
+
 @inlined
 def position_at(ball, t, deceleration):
     """Return (x, y) in m of a ball whose motion lasts until `t` at least.

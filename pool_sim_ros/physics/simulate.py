@@ -13,6 +13,7 @@ from pool_sim_ros.physics import event_driven
 from pool_sim_ros.physics import time_slice as time_slicing
 from pool_sim_ros.physics.checks import number
 from pool_sim_ros.physics.layout import check_layout
+from pool_sim_ros.physics.motion import copied
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
 
@@ -168,7 +169,7 @@ def _check(table, positions, integrator, time_slice, until):
     if places.shape != (n, 2):
         raise ValueError(f'positions: shape {places.shape} must be ({n}, 2)')
     check_layout(places, table.radii, table.length, table.width, table.labels, 'positions')
-    at_rest = table.balls_at_rest.copy()
+    at_rest = copied(table.balls_at_rest)
     at_rest['x'], at_rest['y'] = places.T
     return at_rest, limit
 
