@@ -11,11 +11,11 @@ import numpy as np
 from geometry_msgs.msg import PoseArray
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from std_msgs.msg import Float64MultiArray, String
 
 from pool_sim_ros import conversions, interface
 from pool_sim_ros.protocol import Phase
+from pool_sim_ros.startup import client_node
 
 NAP = 0.1
 """Seconds at most between two looks at what was waited for."""
@@ -49,7 +49,7 @@ class ShotClient:
         has_ended: Callable[[], bool] = lambda: False,
     ) -> None:
         self._has_ended = has_ended
-        self._node = Node(f'pool_client_{uuid.uuid4().hex[:8]}', context=context)
+        self._node = client_node(context, 'client')
         self._executor = SingleThreadedExecutor(context=context)
         self._executor.add_node(self._node)
         self._simulator = simulator

@@ -22,14 +22,12 @@ from pool_sim_ros.report.log import (
     published_final_positions,
 )
 from pool_sim_ros.report.shots import attitude_to_nearest, nearest_ball
-from pool_sim_ros.startup import init_ros
+from pool_sim_ros.startup import INTERRUPTED, init_ros
 from pool_sim_ros.table_json import table_from_json
 
 PATIENCE = 300.0
 """Seconds without a sign of the node after which something is wrong: the slowest machine compiles
 the physics in less."""
-
-INTERRUPTED = 130
 
 
 def main(args: list[str] | None = None) -> int:

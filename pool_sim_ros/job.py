@@ -1,13 +1,12 @@
-"""A shot to compute, and whether the report printed how it ends."""
+"""A shot to compute."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from pool_sim_ros.physics import Table, Trajectory, report_table, simulate
-from pool_sim_ros.physics.simulate import REPORT_TIME_SLICE
+from pool_sim_ros.physics import Table, Trajectory, simulate
 from pool_sim_ros.settings import Settings
 
 
@@ -57,15 +56,3 @@ def make_job(
         time_slice=settings.time_slice,
         until=settings.max_shot_duration,
     )
-
-
-def is_as_printed(settings: Settings) -> bool:
-    """Return whether a report shot under these settings ends where the report printed."""
-    if settings.report_integrator != 'time_slice' or settings.time_slice != REPORT_TIME_SLICE:
-        return False
-    return _without_colors(settings.table) == _without_colors(report_table())
-
-
-def _without_colors(table: Table) -> Table:
-    balls = tuple(replace(ball, color=(0.0, 0.0, 0.0)) for ball in table.balls)
-    return replace(table, balls=balls)

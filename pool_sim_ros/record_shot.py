@@ -6,24 +6,24 @@ import argparse
 import sys
 from pathlib import Path
 
-from pool_sim_ros import interface
 from pool_sim_ros.client import ShotClient, SimulatorError
 from pool_sim_ros.progress import ProgressLine
 from pool_sim_ros.recorder import Recorder
-from pool_sim_ros.startup import NAME_ERRORS, StartupError, init_ros, without_ros_args
-
-INTERRUPTED = 130
-"""Exit status after Ctrl-C, as shells have it."""
+from pool_sim_ros.shot_arguments import ShotParser
+from pool_sim_ros.startup import (
+    INTERRUPTED,
+    NAME_ERRORS,
+    StartupError,
+    init_ros,
+    without_ros_args,
+)
 
 
 def main(args: list[str] | None = None) -> int:
     """Record one shot; return the exit status."""
     args = sys.argv[1:] if args is None else args
     try:
-        parser = _parser()
-        options = parser.parse_args(without_ros_args(args))
-        if (options.shot is None) == (options.velocity is None):
-            parser.error('give either the number of a shot or --velocity VX VY')
+        options = _parser().parse_args(without_ros_args(args))
         _check(options.out)
         context = init_ros(args)
         try:
@@ -82,29 +82,15 @@ def _record(context, options: argparse.Namespace) -> None:
     print(f'{options.out}: {len(recorder.messages)} messages, a shot of {seconds:.2f} s')
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog='record_shot',
-        description='Play one shot on a running simulator and write its topics to an MCAP file, '
-        'which Foxglove and "ros2 bag play" open.',
-        epilog='ROS arguments, like --ros-args -r __ns:=/NS, may follow.',
-    )
-    parser.add_argument('shot', nargs='?', type=int, help="one of the report's shots, 1 to 4")
-    parser.add_argument(
-        '--velocity', nargs=2, type=float, metavar=('VX', 'VY'),
-        help='strike the cue ball where it lies, m/s',
+def _parser() -> ShotParser:
+    parser = ShotParser(
+        'record_shot',
+        'Play one shot on a running simulator and write its topics to an MCAP file, which Foxglove '
+        'and "ros2 bag play" open.',
     )
     parser.add_argument(
         '--out', type=Path, default=Path('shot.mcap'), metavar='FILE.mcap',
         help='file to write; one that is there is replaced (default: %(default)s)',
-    )
-    parser.add_argument(
-        '--node', default=interface.NODE_NAME, metavar='NAME',
-        help='name of the simulator (default: %(default)s)',
-    )
-    parser.add_argument(
-        '--timeout', type=float, default=10.0, metavar='S',
-        help='give up after so many seconds without a sign of it (default: %(default)g)',
     )
     return parser
 

@@ -5,20 +5,19 @@ from __future__ import annotations
 import json
 import threading
 import time
-import uuid
 from collections.abc import Callable
 from typing import NamedTuple
 
 from geometry_msgs.msg import PoseArray
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
 from pool_sim_ros import conversions, interface
 from pool_sim_ros.client import SimulatorError
+from pool_sim_ros.startup import client_node
 
 TOPICS = (
     interface.TABLE,
@@ -66,7 +65,7 @@ class Recorder:
     def __init__(self, context: Context, simulator: str) -> None:
         self.messages: list[Recorded] = []
         """What has come, in order."""
-        self._node = Node(f'pool_recorder_{uuid.uuid4().hex[:8]}', context=context)
+        self._node = client_node(context, 'recorder')
         self._simulator = simulator
         self._subscriptions = [self._listen(topic) for topic in TOPICS]
         self._executor = SingleThreadedExecutor(context=context)

@@ -5,24 +5,27 @@ from __future__ import annotations
 import argparse
 import sys
 
-from pool_sim_ros import interface
 from pool_sim_ros.client import ShotClient, SimulatorError
 from pool_sim_ros.progress import ProgressLine
 from pool_sim_ros.report.log import format_shot
-from pool_sim_ros.startup import NAME_ERRORS, StartupError, init_ros, without_ros_args
-
-INTERRUPTED = 130
-"""Exit status after Ctrl-C, as shells have it."""
+from pool_sim_ros.shot_arguments import ShotParser
+from pool_sim_ros.startup import (
+    INTERRUPTED,
+    NAME_ERRORS,
+    StartupError,
+    init_ros,
+    without_ros_args,
+)
 
 
 def main(args: list[str] | None = None) -> int:
     """Play one shot; return the exit status."""
     args = sys.argv[1:] if args is None else args
     try:
-        parser = _parser()
+        parser = ShotParser(
+            'shot', 'Play one shot on a running simulator and print where the balls stop.'
+        )
         options = parser.parse_args(without_ros_args(args))
-        if (options.shot is None) == (options.velocity is None):
-            parser.error('give either the number of a shot or --velocity VX VY')
         context = init_ros(args)
         try:
             client = ShotClient(context, options.node)
@@ -64,28 +67,6 @@ def _print_accepted(response: dict) -> None:
         f'integrator {response["integrator"]}',
         flush=True,
     )
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog='shot',
-        description='Play one shot on a running simulator and print where the balls stop.',
-        epilog='ROS arguments, like --ros-args -r __ns:=/NS, may follow.',
-    )
-    parser.add_argument('shot', nargs='?', type=int, help="one of the report's shots, 1 to 4")
-    parser.add_argument(
-        '--velocity', nargs=2, type=float, metavar=('VX', 'VY'),
-        help='strike the cue ball where it lies, m/s',
-    )
-    parser.add_argument(
-        '--node', default=interface.NODE_NAME, metavar='NAME',
-        help='name of the simulator (default: %(default)s)',
-    )
-    parser.add_argument(
-        '--timeout', type=float, default=10.0, metavar='S',
-        help='give up after so many seconds without a sign of it (default: %(default)g)',
-    )
-    return parser
 
 
 if __name__ == '__main__':

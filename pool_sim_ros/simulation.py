@@ -9,13 +9,14 @@ from dataclasses import replace
 import numpy as np
 
 from pool_sim_ros.command_log import CommandLog
-from pool_sim_ros.job import Job, is_as_printed, make_job
+from pool_sim_ros.job import Job, make_job
 from pool_sim_ros.ledger import Ledger
 from pool_sim_ros.physics import Trajectory
 from pool_sim_ros.physics.layout import check_layout
 from pool_sim_ros.playback import Frame, Motion, Playback
 from pool_sim_ros.protocol import Code, Phase, Request, Response, parse_request, twist_request
 from pool_sim_ros.report.log import inches
+from pool_sim_ros.report.printed import deviations
 from pool_sim_ros.report.shots import cue_velocity
 from pool_sim_ros.settings import Settings
 
@@ -208,7 +209,7 @@ class Simulation:
                 velocity = cue_velocity(request.shot, table)
             except ValueError as error:
                 return _rejected(request, Code.UNKNOWN_SHOT, str(error)), None
-            as_printed = is_as_printed(settings)
+            as_printed = not deviations(settings)
         speed = math.hypot(*velocity)
         if speed > settings.max_cue_speed:
             limit = f'max_cue_speed, {settings.max_cue_speed:g} m/s'

@@ -8,11 +8,14 @@ import signal
 import socket
 import sys
 import threading
+import uuid
 
 import rclpy
 from rclpy.context import Context
 from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
 from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
@@ -20,6 +23,9 @@ from rclpy.utilities import remove_ros_args
 class StartupError(Exception):
     """ROS could not be brought up; the message is for the user."""
 
+
+INTERRUPTED = 130
+"""Exit status after Ctrl-C, as shells have it."""
 
 NAME_ERRORS = (InvalidNamespaceException, InvalidNodeNameException)
 """What the node's constructor raises for a bad `__node` or `__ns`."""
@@ -61,6 +67,20 @@ def init_ros(args: list[str]) -> Context:
         set_logger_level('rcl', LoggingSeverity.UNSET)
 
     return context
+
+
+def client_node(context: Context, kind: str, *, enable_rosout: bool = True) -> Node:
+    """Return a node under a name that no other has, which offers no services.
+
+    So many of them can be started, and a security policy need not know their names.
+    """
+    return Node(
+        f'pool_{kind}_{uuid.uuid4().hex[:8]}',
+        context=context,
+        enable_rosout=enable_rosout,
+        start_parameter_services=False,
+        parameter_overrides=[Parameter('start_type_description_service', value=False)],
+    )
 
 
 def shut_down_on_signals(context: Context) -> None:

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from pool_sim_ros import interface
+from pool_sim_ros.client import ShotClient
+from pool_sim_ros.recorder import Recorder
 
 PROJECT = Path(__file__).resolve().parents[1]
 POLICY = ET.parse(PROJECT / 'config' / 'sros2_policy.xml')
@@ -40,7 +42,30 @@ def test_the_policy_allows_a_client_the_other_ends():
     heard = allowed('/pool_client', 'topic', 'subscribe')
     assert {topic.of('/pool_sim') for topic in topics} - names <= heard
     services = [item for item in vars(interface).values() if isinstance(item, interface.Service)]
-    assert allowed('/pool_client', 'service', 'request') == {s.of('/pool_sim') for s in services}
+    used = {s.of('/pool_sim') for s in services} | {'/pool_sim/set_parameters'}  # the page's speed
+    assert allowed('/pool_client', 'service', 'request') == used
+
+
+def test_clients_have_nothing_but_what_the_policy_allows(ros, domain):
+    context = ros.context
+    client, recorder = ShotClient(context), Recorder(context, '/pool_sim')
+    watcher = ros.node()
+    try:
+        ros.spin_until(lambda: len(names_of(watcher)) == 2, 'the clients')
+        for name in names_of(watcher):
+            published = {t for t, _ in watcher.get_publisher_names_and_types_by_node(name, '/')}
+            heard = {t for t, _ in watcher.get_subscriber_names_and_types_by_node(name, '/')}
+            assert published <= allowed('/pool_client', 'topic', 'publish')
+            also = {'/pool_sim/shot/request'}  # what it records is also what it may send
+            assert heard <= allowed('/pool_client', 'topic', 'subscribe') | also
+            assert watcher.get_service_names_and_types_by_node(name, '/') == []
+    finally:
+        recorder.close()
+        client.close()
+
+
+def names_of(node):
+    return [name for name in node.get_node_names() if name.startswith(('pool_c', 'pool_r'))]
 
 
 LIMITS = re.findall(r'`(\w+)\.([A-Z_]{3,})`', (PROJECT / 'docs' / 'security.md').read_text())

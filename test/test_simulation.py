@@ -8,9 +8,10 @@ from fakes import Glide
 
 from pool_sim_ros.physics import Ball, Table, report_table, simulate
 from pool_sim_ros.protocol import Code, Phase
+from pool_sim_ros.report.printed import deviations
 from pool_sim_ros.report.shots import cue_velocity
 from pool_sim_ros.settings import build_settings, default_values
-from pool_sim_ros.simulation import Simulation, is_as_printed
+from pool_sim_ros.simulation import Simulation
 
 SETTINGS = replace(build_settings(default_values()), report_integrator='event')
 
@@ -259,18 +260,18 @@ def test_shot_4_needs_a_second_ball():
 
 def test_as_printed_only_with_the_report_table_integrator_and_slice():
     report = build_settings(default_values())
-    assert is_as_printed(report)
+    assert not deviations(report)
     balls = report.table.balls
     painted = (replace(balls[0], color=(0.0, 0.0, 0.0)), *balls[1:])
     heavier = (replace(balls[0], mass=0.21), *balls[1:])
-    assert is_as_printed(replace(report, table=replace(report.table, balls=painted)))
+    assert not deviations(replace(report, table=replace(report.table, balls=painted)))
     for other in (
         replace(report, report_integrator='event'),
         replace(report, time_slice=1e-5),
         replace(report, table=replace(report.table, balls=heavier)),
         replace(report, table=replace(report.table, e_cue_ball=0.95)),
     ):
-        assert not is_as_printed(other)
+        assert deviations(other)
     assert Simulation(report).request('1')[0].as_printed is True
     assert Simulation(SETTINGS).request('1')[0].as_printed is False
     assert Simulation(report).request('{"velocity": [-4, 0]}')[0].as_printed is None

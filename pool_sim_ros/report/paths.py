@@ -13,6 +13,7 @@ from matplotlib.transforms import Affine2D
 from pool_sim_ros.physics import Ball, Trajectory
 from pool_sim_ros.report.drawing import PATH_LEVEL, label_outline
 from pool_sim_ros.report.played import moved_balls
+from pool_sim_ros.ways import waypoints
 
 DASHES = (
     (0, ()),
@@ -31,18 +32,6 @@ WIDTH, EDGE = 1.3, 0.55
 
 LABEL_ROOM = 0.36
 """Radius of the room that the label of a start takes, as a part of the ball's radius."""
-
-
-def waypoints(trajectory: Trajectory, ball: int) -> np.ndarray:
-    """Return the corners of a ball's way, from its start to its end, (k, 2) in m.
-
-    Between two contacts a ball goes straight: friction on the cloth acts against its motion.
-    """
-    segments = trajectory.segments[trajectory.segments['ball'] == ball]
-    corners = np.column_stack([segments['x'], segments['y']])
-    corners = np.vstack([corners, trajectory.final_positions[ball]])
-    new = np.any(np.diff(corners, axis=0) != 0.0, axis=1)
-    return corners[np.concatenate([[True], new])]
 
 
 def draw_paths(axes: Axes, trajectory: Trajectory) -> None:

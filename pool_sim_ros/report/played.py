@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from pool_sim_ros.physics import Table, Trajectory, report_table, simulate
-from pool_sim_ros.physics.simulate import REPORT_TIME_SLICE
+from pool_sim_ros.physics import Table, Trajectory, simulate
 from pool_sim_ros.report.errors import ReportError
 from pool_sim_ros.report.log import inches, published_final_positions
+from pool_sim_ros.report.printed import deviations, is_report_table
 from pool_sim_ros.report.shots import attitude_to_nearest, cue_velocity, nearest_ball
 from pool_sim_ros.settings import Settings
 
@@ -74,44 +74,27 @@ def play_shots(settings: Settings, numbers: Iterable[int]) -> Iterator[PlayedSho
     Raises
     ------
     ShotError
-        Where shot 4 has nothing to aim at, or the balls move for longer than
-        ``max_shot_duration``.
+        Where shot 4 has nothing to aim at, the balls move for longer than
+        ``max_shot_duration``, or the law of friction gives them energy without end.
     """
     table = settings.table
     published = published_final_positions() if is_report_table(table) else {}
     for number in numbers:
         try:
             velocity = cue_velocity(number, table)
+            trajectory = simulate(
+                table,
+                velocity,
+                integrator=settings.report_integrator,
+                time_slice=settings.time_slice,
+                until=settings.max_shot_duration,
+            )
         except ValueError as error:
             raise ShotError(f'shot {number}: {error}') from error
-        trajectory = simulate(
-            table,
-            velocity,
-            integrator=settings.report_integrator,
-            time_slice=settings.time_slice,
-            until=settings.max_shot_duration,
-        )
         if not trajectory.complete:
             limit = f'max_shot_duration, {settings.max_shot_duration:g} s'
             raise ShotError(f'shot {number}: the balls move for longer than {limit}')
         yield PlayedShot(number, velocity, trajectory, published.get(number))
-
-
-def is_report_table(table: Table) -> bool:
-    """Return whether balls move on this table as on the report's; colours do not matter."""
-    return _without_colors(table) == _without_colors(report_table())
-
-
-def deviations(settings: Settings) -> list[str]:
-    """Return in words all that differs from the run that the report printed; empty = nothing."""
-    found = []
-    if not is_report_table(settings.table):
-        found.append('another table')
-    if settings.report_integrator != 'time_slice':
-        found.append(f'integrator {settings.report_integrator}')
-    elif settings.time_slice != REPORT_TIME_SLICE:
-        found.append(f'slices of {settings.time_slice:g} s')
-    return found
 
 
 def verdict(settings: Settings, shots: Sequence[PlayedShot]) -> str:
@@ -142,8 +125,3 @@ def moved_balls(trajectory: Trajectory) -> np.ndarray:
     """Return the indices of the balls that moved in a shot, (k,)."""
     moving = trajectory.segments['speed'] > 0.0
     return np.unique(trajectory.segments['ball'][moving])
-
-
-def _without_colors(table: Table) -> Table:
-    balls = tuple(replace(ball, color=(0.0, 0.0, 0.0)) for ball in table.balls)
-    return replace(table, balls=balls)

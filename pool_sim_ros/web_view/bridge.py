@@ -12,11 +12,11 @@ from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from pool_sim_ros import conversions, interface
+from pool_sim_ros.startup import client_node
 from pool_sim_ros.web_view.poses import LatestPoses
 
 PATIENCE = 6.0
@@ -58,11 +58,7 @@ class Bridge:
     def __init__(self, context: Context, simulator: str, listener: Listener) -> None:
         self._loop = asyncio.get_running_loop()
         self._simulator = simulator
-        self._node = Node(
-            f'pool_web_view_{uuid.uuid4().hex[:8]}',
-            context=context,
-            start_parameter_services=False,
-        )
+        self._node = client_node(context, 'web_view')
         topic = interface.SHOT_REQUEST
         self._requests = self._node.create_publisher(topic.type, topic.of(simulator), topic.qos)
         self._poses = LatestPoses(context, simulator)

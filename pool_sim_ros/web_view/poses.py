@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import uuid
-
 from rclpy.context import Context
-from rclpy.node import Node
-from rclpy.parameter import Parameter
 
 from pool_sim_ros import interface
+from pool_sim_ros.startup import client_node
 
 
 class LatestPoses:
@@ -26,13 +23,7 @@ class LatestPoses:
 
     def __init__(self, context: Context, simulator: str) -> None:
         # A node of its own, which no executor knows: that would take the messages away.
-        self._node = Node(
-            f'pool_web_poses_{uuid.uuid4().hex[:8]}',
-            context=context,
-            enable_rosout=False,
-            start_parameter_services=False,
-            parameter_overrides=[Parameter('start_type_description_service', value=False)],
-        )
+        self._node = client_node(context, 'web_poses', enable_rosout=False)
         topic = interface.BALL_POSES
         self._subscription = self._node.create_subscription(
             topic.type, topic.of(simulator), lambda _: None, topic.qos, raw=True

@@ -11,7 +11,8 @@ from pool_sim_ros.report.collision_drawing import draw_construction, draw_setup
 from pool_sim_ros.report.drawing import CLOTH, TablePicture, label_outline
 from pool_sim_ros.report.outputs import picture_count, write_pictures
 from pool_sim_ros.report.part_one import example
-from pool_sim_ros.report.paths import draw_paths, waypoints
+from pool_sim_ros.report.paths import draw_paths
+from pool_sim_ros.ways import waypoints
 
 
 def pixels(picture, tmp_path, dpi=200):

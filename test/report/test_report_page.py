@@ -12,7 +12,8 @@ from pool_sim_ros.report.log import published_final_positions
 from pool_sim_ros.report.markup import number, short
 from pool_sim_ros.report.mathml import with_formulae
 from pool_sim_ros.report.page import Content, make_page
-from pool_sim_ros.report.played import deviations, play_shots, verdict
+from pool_sim_ros.report.played import play_shots, verdict
+from pool_sim_ros.report.printed import deviations
 
 INCH = 0.0254
 
