@@ -29,13 +29,14 @@ PATIENCE = 300.0
 """Seconds without a sign of the node after which something is wrong: the slowest machine compiles
 the physics in less."""
 
+NODE = f'pool_demo_{os.getpid()}'
+"""A name of its own, out of the way of any other simulator."""
+
 
 def main(args: list[str] | None = None) -> int:
     """Play the four shots; return 0 where all positions equal the printed ones."""
     options = _parser().parse_args(args)
-    # A table of its own, out of the way of any other on this machine or network.
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
-    os.environ['ROS_DOMAIN_ID'] = str(1 + os.getpid() % 101)
     # Like Ctrl-C, so that the node does not outlive the demo.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     with tempfile.TemporaryFile() as log:
@@ -53,7 +54,7 @@ def main(args: list[str] | None = None) -> int:
 @contextmanager
 def _simulator(speed: float, log: IO[bytes]) -> Iterator[subprocess.Popen]:
     command = [sys.executable, '-m', 'pool_sim_ros.sim_node']
-    arguments = ['--ros-args', '-p', f'real_time_factor:={speed}']
+    arguments = ['--ros-args', '-r', f'__node:={NODE}', '-p', f'real_time_factor:={speed}']
     process = subprocess.Popen([*command, *arguments], stdout=log, stderr=log)
     try:
         print('Starting the node; on the first run it compiles the physics, for about 20 s ...')
@@ -86,7 +87,7 @@ def _text(log: IO[bytes]) -> str:
 
 def _play_all(process: subprocess.Popen, speed: float) -> int:
     context = init_ros([])
-    client = ShotClient(context, has_ended=lambda: process.poll() is not None)
+    client = ShotClient(context, NODE, has_ended=lambda: process.poll() is not None)
     line = ProgressLine(sys.stdout)
     try:
         client.wait_for_simulator(PATIENCE)

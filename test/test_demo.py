@@ -38,7 +38,6 @@ def test_a_position_that_differs_is_marked_and_not_counted(capsys):
 
 
 def test_a_node_that_does_not_start_is_told(domain, monkeypatch, capsys):
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))  # main() sets another one
     monkeypatch.setattr(demo.sys, 'executable', '/bin/false')
     assert demo.main(['--speed', '0']) == 1
     assert 'ended' in capsys.readouterr().err

@@ -2,7 +2,6 @@
 
 import email
 import os
-import random
 import re
 import subprocess
 import sys
@@ -22,10 +21,6 @@ pytestmark = pytest.mark.packaging
 
 PROJECT = Path(__file__).parents[1]
 COMMANDS = {'sim_node', 'shot', 'replay', 'report', 'web_view', 'record_shot'}
-LOCAL_ROS = {
-    'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-    'ROS_DOMAIN_ID': str(random.randint(1, 101)),
-}
 
 
 @pytest.fixture(scope='module')
@@ -145,14 +140,15 @@ def test_commands_run_outside_the_environment(installation, command, tmp_path):
     assert re.match(f'usage: .*{command}', output)
 
 
-def test_the_node_starts_with_the_installed_configuration(installation, tmp_path):
+def test_the_node_starts_with_the_installed_configuration(installation, tmp_path, domain):
     """It need not get ready, since that takes compiling the kernels: its first words are enough."""
     path = find_executables(installation.prefix)['sim_node']
     parameters = installation.prefix / 'share/pool_sim_ros/config/report.yaml'
     command = [*installation.shell, path, '--ros-args', '--params-file', str(parameters)]
+    ros = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'ROS_DOMAIN_ID': str(domain)}
     with subprocess.Popen(
         command,
-        env=installation.env | LOCAL_ROS,
+        env=installation.env | ros,
         cwd=tmp_path,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
