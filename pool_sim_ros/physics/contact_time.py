@@ -67,7 +67,21 @@ def passes_by(dx, dy, wx, wy, gx, gy, touch, horizon):
     after = before + 0.5 * horizon * horizon * (gx * wy - gy * wx)
     least = min(abs(before), abs(after))
     margin = touch * touch * (wx * wx + wy * wy)
-    return before * after > 0.0 and least * least > margin * (1.0 + 1e-9)
+    return (before * after > 0.0) & (least * least > margin * (1.0 + 1e-9))
+
+
+@inlined
+def stays_away(dx, dy, wx, wy, gx, gy, touch, horizon):
+    """Return whether two balls, along their present centre line, stay too far apart to touch.
+
+    That is before `horizon`. Arguments as `time_to_moving_ball`.
+    """
+    squared = dx * dx + dy * dy
+    closing = min(dx * wx + dy * wy, 0.0)
+    bending = min(dx * gx + dy * gy, 0.0)
+    least = squared + horizon * (closing + 0.5 * horizon * bending)
+    apart = (least > 0.0) & (least * least > touch * touch * squared * (1.0 + 1e-9))
+    return apart | (closing + bending == 0.0)
 
 
 @inlined
@@ -91,9 +105,11 @@ def time_to_moving_ball(dx, dy, wx, wy, gx, gy, touch, horizon):
     lower bound of the contact time: step there and repeat. It cannot step past a
     contact, and converges as Newton's method does.
     """
-    if horizon <= 0.0 or (dx * wx + dy * wy >= 0.0 and dx * gx + dy * gy >= 0.0):
-        return np.inf
-    if passes_by(dx, dy, wx, wy, gx, gy, touch, horizon):
+    if (
+        (horizon <= 0.0)
+        | stays_away(dx, dy, wx, wy, gx, gy, touch, horizon)
+        | passes_by(dx, dy, wx, wy, gx, gy, touch, horizon)
+    ):
         return np.inf
     t = 0.0
     for _ in range(MAX_STEPS):

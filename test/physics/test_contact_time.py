@@ -174,3 +174,20 @@ def test_time_to_cover(speed, share):
 
 def test_time_to_cover_without_friction():
     assert contact_time.time_to_cover(0.5, 2.0, 0.0) == 0.25
+
+
+@pytest.mark.parametrize('rule', [contact_time.passes_by, contact_time.stays_away])
+@pytest.mark.parametrize('horizon', [1e-3, 0.3, 2.0, math.inf])
+def test_what_is_said_to_stay_apart_never_touches(rule, horizon):
+    rng = np.random.default_rng(7)
+    times = np.linspace(0.0, min(horizon, 1e3), 2000)[:, np.newaxis]
+    said = 0
+    for _ in range(500):
+        place, velocity = rng.normal(0.0, 0.3, 2), rng.normal(0.0, rng.choice([0.01, 1.0]), 2)
+        acceleration = rng.normal(0.0, rng.choice([0.0, 1.0]), 2)
+        touch = min(0.1, 0.99 * math.hypot(*place))
+        if rule(*place, *velocity, *acceleration, touch, horizon):
+            said += 1
+            way = place + times * velocity + 0.5 * times**2 * acceleration
+            assert np.hypot(*way.T).min() > touch
+    assert said > (0 if horizon == math.inf else 100)
