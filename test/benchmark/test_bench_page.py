@@ -1,0 +1,47 @@
+"""The page in the browser: how often it draws, and what its server takes, while the balls roll."""
+
+import os
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from benchmark.test_bench_node import ROLLING, processor_seconds
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'web'))
+browser_tests = pytest.importorskip('test_browser', reason='Chromium or playwright is missing')
+from site_harness import simulator, web_view  # noqa: E402
+
+SECTION = 'The page in the browser'
+ROUNDS, SECONDS = 3, 5.0
+
+
+def test_rolling_balls(domain, results):
+    rates, shares = [], []
+    with (
+        simulator(**ROLLING),
+        web_view() as site,
+        browser_tests.sync_api.sync_playwright() as playwright,
+    ):
+        browser = playwright.chromium.launch(
+            executable_path=browser_tests.CHROMIUM, args=browser_tests.SWITCHES
+        )
+        page = browser_tests.Page(browser.new_page(viewport=browser_tests.DESKTOP))
+        page.page.goto(site.address)
+        page.wait_for_rest()
+        page.drag(0.3, 0.02)
+        page.page.mouse.up()
+        page.wait('page.state.moving')
+        for _ in range(ROUNDS):
+            start, used, drawn = time.monotonic(), processor_seconds(site), page.get('page.drawn')
+            page.page.wait_for_timeout(SECONDS * 1e3)
+            took = time.monotonic() - start
+            shares.append((processor_seconds(site) - used) / took)
+            rates.append((page.get('page.drawn') - drawn) / took)
+        assert page.get('page.state.moving')
+        browser.close()
+    load = f'(load {os.getloadavg()[0]:.1f})'
+    rate = f'{np.median(rates):.1f} frames a second {load}'
+    results.note(SECTION, 'drawn, of 60 a second', rate, '55')
+    results.note(SECTION, 'processor of its server', f'{np.median(shares):.1%} {load}', '5 %')
