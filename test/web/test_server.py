@@ -30,9 +30,15 @@ def alone(domain):
 
 @pytest.fixture(scope='module')
 def played(domain):
-    """A server with a simulator."""
+    """A server that has found its simulator."""
     named = ['--ros-args', '-r', '__node:=shown']
     with simulator(*named), web_view('--node', 'shown') as site:
+
+        async def wait_for_simulator():
+            async with talk(site.address) as page:
+                await page.hear('state')
+
+        asyncio.run(wait_for_simulator())
         yield site
 
 
