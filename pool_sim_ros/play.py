@@ -22,8 +22,10 @@ def main(args: list[str] | None = None) -> int:
     # A table of its own, out of the way of any other on this machine or network.
     domain = os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 101))
     reach = os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    # Like Ctrl-C, so that neither outlives this.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    # Not as an exception: a second one would come in the midst of ending the two.
+    signals: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda number, _: signals.append(number))
     print(
         'Its topics, in another terminal: '
         f'export ROS_DOMAIN_ID={domain} ROS_AUTOMATIC_DISCOVERY_RANGE={reach}',
@@ -35,11 +37,9 @@ def main(args: list[str] | None = None) -> int:
             processes.append(
                 subprocess.Popen([sys.executable, '-m', f'pool_sim_ros.{module[0]}', *module[1:]])
             )
-        while all(process.poll() is None for process in processes):
+        while not signals and all(process.poll() is None for process in processes):
             time.sleep(NAP)
-        return 1
-    except KeyboardInterrupt:
-        return 0
+        return 0 if signals else 1
     finally:
         for process in processes:
             _end(process)

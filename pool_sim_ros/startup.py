@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import signal
-import socket
 import sys
 import threading
 import uuid
@@ -91,14 +90,15 @@ def shut_down_on_signals(context: Context) -> None:
     # Not rclpy's own handlers: they wake the executor before they shut the context down, which at
     # times leaves it waiting for ever. Nor would Python's handlers do by themselves: they run in
     # the main thread once it has left the executor's wait.
-    reader, writer = socket.socketpair()
-    writer.setblocking(False)
+    # Plain descriptors, which nothing closes while the process ends: a second signal may come then.
+    reader, writer = os.pipe()
+    os.set_blocking(writer, False)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: None)
-    signal.set_wakeup_fd(writer.fileno(), warn_on_full_buffer=False)
+    signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
 
-    def wait(_keep_open: socket.socket = writer) -> None:
-        reader.recv(1)
+    def wait() -> None:
+        os.read(reader, 1)
         context.try_shutdown()
 
     threading.Thread(target=wait, name='signals', daemon=True).start()
