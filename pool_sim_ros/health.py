@@ -137,8 +137,8 @@ def energy_rise(trajectory: Trajectory) -> float:
     """
     times = trajectory.events['t'][:: len(trajectory.events) // ENERGY_SAMPLES + 1]
     times = np.concatenate([[0.0], times])
-    masses = np.array([ball.mass for ball in trajectory.table.balls])
-    energies = 0.5 * np.sum(trajectory.velocities(times) ** 2, axis=2) @ masses
+    squares = np.sum(trajectory.velocities(times) ** 2, axis=2)
+    energies = 0.5 * squares @ trajectory.table.masses
     if energies[0] == 0.0:
         return 0.0
     return float(max(np.max(energies - np.minimum.accumulate(energies)), 0.0) / energies[0])

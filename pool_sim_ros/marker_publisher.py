@@ -45,15 +45,15 @@ class MarkerPublisher:
         has missed.
         """
         before, self._viewers = self._viewers, self._often.get_subscription_count()
-        rolling = frame.finished or bool(frame.velocities.any())
-        if rolling and not frame.finished and not self._viewers:
+        moves = bool(frame.velocities.any())
+        if moves and not self._viewers:
             self._missed = True
             return
         changes = self._markers.changes(
             frame.positions,
             frame.collisions,
             started=frame.started,
-            rolling=rolling and not self._missed,
+            rolling=(moves or frame.finished) and not self._missed,
         )
         self._missed = False
         if changes is None and self._viewers <= before:
@@ -61,6 +61,6 @@ class MarkerPublisher:
         if changes is not None and self._viewers:
             self._often.publish(changes)
         # All of it, and after the changes: who comes later is sent only what came last.
-        resting = changes is not None and not frame.velocities.any()
+        resting = changes is not None and not moves
         if resting or frame.started or self._viewers > before:
             self._often.publish(self._markers.everything(frame.positions))

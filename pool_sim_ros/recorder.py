@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import json
-import threading
 import time
 from collections.abc import Callable
 from typing import NamedTuple
 
 from geometry_msgs.msg import PoseArray
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
 from pool_sim_ros import conversions, interface
 from pool_sim_ros.client import SimulatorError
+from pool_sim_ros.spinning import SpinThread
 from pool_sim_ros.startup import client_node
 
 TOPICS = (
@@ -68,19 +67,11 @@ class Recorder:
         self._node = client_node(context, 'recorder')
         self._simulator = simulator
         self._subscriptions = [self._listen(topic) for topic in TOPICS]
-        self._executor = SingleThreadedExecutor(context=context)
-        self._executor.add_node(self._node)
-        self._closing = threading.Event()
-        self._thread = threading.Thread(target=self._spin, name='recorder', daemon=True)
-        self._thread.start()
+        self._thread = SpinThread(self._node)
 
     def close(self) -> None:
         """Listen no more."""
-        # Not shutdown() first: the thread may be in the midst of what that takes away.
-        self._closing.set()
-        self._executor.wake()
-        self._thread.join()
-        self._executor.shutdown(0.0)
+        self._thread.close()
         self._node.destroy_node()
 
     def wait_for_topics(self, timeout: float) -> None:
@@ -90,9 +81,9 @@ class Recorder:
     def wait_for_end(self, response: dict, timeout: float) -> None:
         """Wait until all of a shot has come.
 
-        That is both responses to its request, and two frames that show its end: whatever was
-        published with or before the first has been taken by then, for the executor takes from
-        each topic in turn.
+        That is the last response to its request, after which no other comes, and two frames that
+        show its end: whatever was published with or before the first has been taken by then, for
+        the executor takes from each topic in turn.
 
         Parameters
         ----------
@@ -149,10 +140,3 @@ class Recorder:
             if time.monotonic() > end:
                 raise SimulatorError(f'{self._simulator} {otherwise} within {timeout:g} s')
             time.sleep(0.01)
-
-    def _spin(self) -> None:
-        try:
-            while not self._closing.is_set():
-                self._executor.spin_once(0.5)
-        except ExternalShutdownException:
-            pass

@@ -18,6 +18,7 @@ from pool_sim_ros.publishers import Publishers
 from pool_sim_ros.session import digests, replay
 from pool_sim_ros.settings import Settings
 from pool_sim_ros.startup import (
+    INTERRUPTED,
     NAME_ERRORS,
     StartupError,
     init_ros,
@@ -52,7 +53,7 @@ def main(args: list[str] | None = None) -> int:
         print(f'replay: {error}', file=sys.stderr)
         return 1
     except KeyboardInterrupt:  # before the signals are ours
-        return 130
+        return INTERRUPTED
     return 0
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import threading
 import uuid
 from collections.abc import Callable
 from typing import Protocol
@@ -11,11 +10,11 @@ from typing import Protocol
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from pool_sim_ros import conversions, interface
+from pool_sim_ros.spinning import SpinThread
 from pool_sim_ros.startup import client_node
 from pool_sim_ros.web_view.poses import LatestPoses
 
@@ -79,11 +78,7 @@ class Bridge:
         self._set_parameters = self._node.create_client(
             SetParameters, f'{simulator}/set_parameters'
         )
-        self._executor = SingleThreadedExecutor(context=context)
-        self._executor.add_node(self._node)
-        self._closing = threading.Event()
-        self._thread = threading.Thread(target=self._spin, name='ros', daemon=True)
-        self._thread.start()
+        self._thread = SpinThread(self._node)
 
     @property
     def simulator(self) -> str:
@@ -99,11 +94,7 @@ class Bridge:
 
     def close(self) -> None:
         """Leave ROS."""
-        # Not shutdown() first: the thread may be in the midst of what that takes away.
-        self._closing.set()
-        self._executor.wake()
-        self._thread.join()
-        self._executor.shutdown(0.0)
+        self._thread.close()
         self._poses.close()
         self._node.destroy_node()
 
@@ -185,10 +176,3 @@ class Bridge:
         # A loop that has ended meanwhile wants to know nothing more.
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(callback, *args)
-
-    def _spin(self) -> None:
-        try:
-            while not self._closing.is_set():
-                self._executor.spin_once(0.5)
-        except ExternalShutdownException:
-            pass

@@ -13,6 +13,7 @@ if CHROMIUM is None:
 pytest.importorskip('aiohttp', reason="aiohttp is missing: pip install 'pool_sim_ros[web]'")
 sync_api = pytest.importorskip('playwright.sync_api', reason='pip install playwright')
 
+from paths import distance_to_way  # noqa: E402
 from site_harness import simulator, web_view  # noqa: E402
 from waiting import PATIENCE  # noqa: E402
 
@@ -120,12 +121,6 @@ def show(browser):
     for context in contexts:
         context.close()
     assert errors == []
-
-
-def distance_to_way(points, place):
-    starts, steps = np.array(points[:-1]), np.diff(points, axis=0)
-    part = np.clip(np.sum((place - starts) * steps, axis=1) / np.sum(steps**2, axis=1), 0, 1)
-    return np.hypot(*(place - starts - part[:, np.newaxis] * steps).T).min()
 
 
 def test_a_drag_makes_a_shot_and_the_path_played_is_the_path_predicted(site, show):

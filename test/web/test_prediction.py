@@ -4,18 +4,12 @@ import json
 
 import numpy as np
 import pytest
+from paths import distance_to_way
 
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.web_view.prediction import predict
 
 TABLE = report_table()
-
-
-def distance_to_way(points, place):
-    starts, ends = np.array(points[:-1]), np.array(points[1:])
-    steps = ends - starts
-    part = np.clip(np.sum((place - starts) * steps, axis=1) / np.sum(steps**2, axis=1), 0, 1)
-    return np.hypot(*(place - starts - part[:, np.newaxis] * steps).T).min()
 
 
 @pytest.mark.parametrize('velocity', [(-4.0, 0.0), (-2.4, 0.7), (3.0, -1.0), (-9.0, 1.3)])
