@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
@@ -14,6 +15,9 @@ LATCHED_CHANGES = 5
 """Messages about what moves that a late viewer is sent. With the table they must fit into the ten
 that a viewer usually keeps: else they push the table out, since what it keeps is counted for all
 publishers together."""
+
+LOOK_PERIOD = 6
+"""Ticks between two looks for viewers: a tenth of a second is soon enough for who comes."""
 
 
 class MarkerPublisher:
@@ -35,6 +39,7 @@ class MarkerPublisher:
         self._often = node.create_publisher(topic.type, topic.private, moving)
         self._viewers = 0
         self._missed = False
+        self._seen: np.ndarray | None = None
         self._once.publish(self._markers.table())
         self._often.publish(self._markers.everything(table.positions))
 
@@ -44,23 +49,30 @@ class MarkerPublisher:
         While nobody looks, a rolling ball costs nothing; who then comes sees no trail of what he
         has missed.
         """
-        before, self._viewers = self._viewers, self._often.get_subscription_count()
-        moves = bool(frame.velocities.any())
-        if moves and not self._viewers:
+        came = self._look_for_viewers() if frame.tick % LOOK_PERIOD == 0 else False
+        if frame.moving and not self._viewers:
             self._missed = True
             return
+        if not (frame.block.moving or came) and frame.block.positions is self._seen:
+            return
+        self._seen = frame.block.positions
         changes = self._markers.changes(
             frame.positions,
             frame.collisions,
             started=frame.started,
-            rolling=(moves or frame.finished) and not self._missed,
+            rolling=(frame.moving or frame.finished) and not self._missed,
         )
         self._missed = False
-        if changes is None and self._viewers <= before:
+        if changes is None and not came:
             return
         if changes is not None and self._viewers:
             self._often.publish(changes)
         # All of it, and after the changes: who comes later is sent only what came last.
-        resting = changes is not None and not moves
-        if resting or frame.started or self._viewers > before:
+        resting = changes is not None and not frame.moving
+        if resting or frame.started or came:
             self._often.publish(self._markers.everything(frame.positions))
+
+    def _look_for_viewers(self) -> bool:
+        """Return whether somebody has come."""
+        before, self._viewers = self._viewers, self._often.get_subscription_count()
+        return self._viewers > before

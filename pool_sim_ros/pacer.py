@@ -32,14 +32,13 @@ class Pacer:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._rate = rate
-        self._factor = real_time_factor
         self._clock = clock
         self._hurrying = False
         self.slips = 0
         """How often there was too much to catch up with, so that time slipped."""
         self.lateness = 0.0
         """How late the latest frame was, s; 0 as fast as possible."""
-        self.restart()
+        self.real_time_factor = real_time_factor
 
     @property
     def real_time_factor(self) -> float:
@@ -49,6 +48,7 @@ class Pacer:
     @real_time_factor.setter
     def real_time_factor(self, factor: float) -> None:
         self._factor = factor
+        self._period = 1.0 / (self._rate * (factor or 1.0))
         self.restart()
 
     def restart(self) -> None:
@@ -89,10 +89,6 @@ class Pacer:
         if self._hurrying:
             return 0
         return max(int((self._clock() - self._due()) / self._period), 0)
-
-    @property
-    def _period(self) -> float:
-        return 1.0 / (self._rate * (self._factor or 1.0))
 
     def _due(self) -> float:
         return self._anchor + self._shown * self._period

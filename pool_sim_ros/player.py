@@ -6,16 +6,15 @@ import threading
 import time
 import traceback
 from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
 
 from pool_sim_ros.command_log import CommandLog
-from pool_sim_ros.health import Health, Report, energy_rise
+from pool_sim_ros.health import Health, energy_rise
 from pool_sim_ros.job import Job
+from pool_sim_ros.output import Output
 from pool_sim_ros.pacer import Pacer
 from pool_sim_ros.physics import compile_kernels
-from pool_sim_ros.playback import Frame
 from pool_sim_ros.protocol import Phase, Response
 from pool_sim_ros.settings import Settings
 from pool_sim_ros.simulation import Simulation
@@ -30,6 +29,9 @@ PAUSED_CLOCK_PERIOD = 0.1
 LONGEST_NAP = 0.05
 """Seconds after which the playback thread looks up at the latest: it bounds how long resuming and
 stopping take."""
+
+HEAD_START = 8e-4
+"""Seconds that are slept last and apart: a short sleep ends more exactly than a long one."""
 
 LONGEST_BATCH = 0.002
 """Seconds of frames in a row while the lock is held: it bounds how long a request waits."""
@@ -51,37 +53,6 @@ HEALTH_PERIOD = 1.0
 
 COMPILE_NOTICE = 1.0
 """Seconds after which the kernels are not merely being loaded, but compiled."""
-
-
-class Output(Protocol):
-    """Where everything goes; called by one thread at a time."""
-
-    def frame(self, frame: Frame) -> None:
-        """Send a tick: the clock, the collisions up to it, then the balls."""
-
-    def clock(self, stamp: int) -> None:
-        """Send the sim time in ns."""
-
-    def responses(self, responses: Sequence[Response]) -> None:
-        """Send responses."""
-
-    def state(self, state: dict[str, object]) -> None:
-        """Send the state."""
-
-    def table(self, settings: Settings) -> None:
-        """Send the table."""
-
-    def diagnostics(self, stamp: int, report: Report) -> None:
-        """Send how the simulator is doing, at a sim time in ns."""
-
-    def tell(self, line: str) -> None:
-        """Tell the user what goes on."""
-
-    def fail(self, line: str) -> None:
-        """Tell the user why nothing can go on, and bring the process to its end."""
-
-    def is_open(self) -> bool:
-        """Return whether anything can still be sent."""
 
 
 class Player:
@@ -231,21 +202,36 @@ class Player:
                 self._health.shot(took, rise, job.table.ball_friction == 'report')
                 if self._running:
                     self._output.responses(self._simulation.computed(job, result))
+                    self._look_ahead()
                     self._show_state()
                     self._computed.notify_all()
         except Exception:
             self._fail('a shot could not be taken over')
 
     def _play(self) -> None:
+        just_before = False
         try:
-            while self._running:
+            while not self._stopping.is_set():
                 with self._lock:
                     wait = self._show_due_frames()
-                    self._show_signs_of_life()
-                busy = time.monotonic() - self._last_request < BUSY_PERIOD
-                time.sleep(min(max(wait, BUSY_NAP if busy else SHORTEST_NAP), LONGEST_NAP))
+                    if not just_before:
+                        self._show_signs_of_life()
+                        self._look_ahead()
+                time.sleep(self._nap(wait))
+                just_before = wait > HEAD_START and not just_before
         except Exception:
             self._fail('playback failed')
+
+    def _nap(self, wait: float) -> float:
+        """Return for how long to sleep in s, where the next frame is due in `wait` s."""
+        if wait > 0.0:
+            return min(wait - HEAD_START if wait > HEAD_START else wait, LONGEST_NAP)
+        busy = time.monotonic() - self._last_request < BUSY_PERIOD
+        return BUSY_NAP if busy else SHORTEST_NAP
+
+    def _look_ahead(self) -> None:
+        """Make ready what comes next, where there is time for it."""
+        self._output.prepare(self._simulation.playback.look_ahead())
 
     def _show_due_frames(self) -> float:
         """Show what is due; return the seconds until the next frame is."""
@@ -265,7 +251,7 @@ class Player:
         self._output.frame(frame)
         if frame.started or frame.finished:
             self._show_state()
-        self._output.responses(responses)
+            self._output.responses(responses)
 
     def _show_signs_of_life(self) -> None:
         now = time.monotonic()

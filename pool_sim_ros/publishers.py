@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 from rclpy.duration import Duration
 from rclpy.node import Node
 
 from pool_sim_ros import conversions, interface, wire
 from pool_sim_ros.health import Report
 from pool_sim_ros.marker_publisher import MarkerPublisher
-from pool_sim_ros.playback import Frame
+from pool_sim_ros.playback import Block, Frame
 from pool_sim_ros.protocol import COLLISION_COLUMNS, VELOCITY_COLUMNS, Response
 from pool_sim_ros.settings import Settings
 from pool_sim_ros.table_json import table_to_json
 
 
 class Publishers:
-    """The node's publishers and its log: the `player.Output` of a node.
+    """The node's publishers and its log: the `output.Output` of a node.
 
     Parameters
     ----------
@@ -33,6 +34,7 @@ class Publishers:
         self._to_poses = wire.PosesWriter(settings.frame_id, settings.table.radii.tolist())
         self._to_velocities = wire.RowsWriter('ball', VELOCITY_COLUMNS)
         self._to_collisions = wire.RowsWriter('collision', COLLISION_COLUMNS)
+        self._block: Block | None = None
         self._response = self._create(interface.SHOT_RESPONSE)
         self._poses = self._create(interface.BALL_POSES)
         self._velocities = self._create(interface.BALL_VELOCITIES)
@@ -43,19 +45,35 @@ class Publishers:
         self._markers = MarkerPublisher(node, settings.table, settings.frame_id)
         self._clock = self._create(interface.CLOCK) if settings.publish_clock else None
 
+    def prepare(self, block: Block) -> None:
+        """Make the messages of the ticks that come next, so that `frame` only sends them."""
+        if block is not self._block:
+            self._block = block
+            self._block_clocks = wire.clock_bytes(block.stamps)
+            self._block_poses = self._to_poses.write(block.stamps, block.positions)
+            self._block_velocities = self._to_velocities.write(block.velocities)
+            self._block_collisions = {
+                index: self._to_collisions.write(rows[np.newaxis])
+                for index, rows in enumerate(block.collisions)
+                if len(rows)
+            }
+
     def frame(self, frame: Frame) -> None:
         """Send a tick: the clock, the collisions up to it, then the balls."""
-        self.clock(frame.stamp)
-        if len(frame.collisions):
-            self._collisions.publish(self._to_collisions.write(frame.collisions))
-        self._poses.publish(self._to_poses.write(frame.stamp, frame.positions))
-        self._velocities.publish(self._to_velocities.write(frame.velocities))
+        self.prepare(frame.block)
+        index = frame.index
+        if self._clock is not None:
+            self._clock.publish(self._block_clocks[index])
+        for message in self._block_collisions.get(index, ()):
+            self._collisions.publish(message)
+        self._poses.publish(self._block_poses[index])
+        self._velocities.publish(self._block_velocities[index])
         self._markers.frame(frame)
 
     def clock(self, stamp: int) -> None:
         """Send the sim time in ns, where this is wanted."""
         if self._clock is not None:
-            self._clock.publish(wire.clock_bytes(stamp))
+            self._clock.publish(*wire.clock_bytes([stamp]))
 
     def responses(self, responses: Sequence[Response]) -> None:
         """Send responses."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from pool_sim_ros.command_log import LogError
 from pool_sim_ros.job import make_job
 from pool_sim_ros.physics.layout import check_layout
@@ -65,10 +67,10 @@ def digests(settings: Settings, frames: Iterator[Frame]) -> dict[str, str]:
     collisions = RowsWriter('collision', COLLISION_COLUMNS)
     sums = {name: hashlib.sha256() for name in ('ball_poses', 'ball_velocities', 'collisions')}
     for frame in frames:
-        sums['ball_poses'].update(poses.write(frame.stamp, frame.positions))
-        sums['ball_velocities'].update(velocities.write(frame.velocities))
+        sums['ball_poses'].update(*poses.write([frame.stamp], frame.positions[np.newaxis]))
+        sums['ball_velocities'].update(*velocities.write(frame.velocities[np.newaxis]))
         if len(frame.collisions):
-            sums['collisions'].update(collisions.write(frame.collisions))
+            sums['collisions'].update(*collisions.write(frame.collisions[np.newaxis]))
     return {name: digest.hexdigest() for name, digest in sums.items()}
 
 

@@ -8,8 +8,8 @@ they are zero, so that two runs with the same inputs send the same bytes.
 from __future__ import annotations
 
 import struct
-from collections import OrderedDict
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +17,9 @@ LITTLE_ENDIAN = b'\0\1\0\0'
 """What precedes every message; numbers are aligned to what follows it."""
 
 DOUBLE = 8
+STAMP = 8
+"""Bytes; a stamp is what a message begins with."""
+
 POSE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 """x, y, z and the quaternion that turns nothing."""
 
@@ -24,8 +27,6 @@ SHAPES_KEPT = 64
 """Numbers of rows whose layout is kept: more collisions than that in one frame are rare."""
 
 SECOND_NS = 1_000_000_000
-
-_STAMP = struct.Struct('<iI')
 
 
 class PosesWriter:
@@ -39,18 +40,20 @@ class PosesWriter:
     """
 
     def __init__(self, frame_id: str, radii: Sequence[float]) -> None:
+        self._shape = len(radii), len(POSE)
         poses = np.tile(POSE, (len(radii), 1))
         poses[:, 2] = radii
-        self._buffer = bytearray(LITTLE_ENDIAN)
-        self._buffer += _STAMP.pack(0, 0)
-        _add_string(self._buffer, frame_id)
-        self._places = _add_rows(self._buffer, len(poses), poses)[:, :2]
+        message = bytearray(LITTLE_ENDIAN + bytes(STAMP))
+        _add_string(message, frame_id)
+        _add_doubles(message, len(poses), poses)
+        self._message = bytes(message)
 
-    def write(self, stamp: int, positions: np.ndarray) -> bytes:
-        """Return the message for a sim time in ns and (n, 2) positions in m."""
-        _STAMP.pack_into(self._buffer, len(LITTLE_ENDIAN), *divmod(stamp, SECOND_NS))
-        self._places[...] = positions
-        return bytes(self._buffer)
+    def write(self, stamps: Sequence[int], positions: np.ndarray) -> list[bytes]:
+        """Return the messages for m sim times in ns and (m, n, 2) positions in m."""
+        copies = _copies(self._message, len(stamps))
+        _put_stamps(copies, stamps)
+        _doubles(copies, self._shape)[:, :, :2] = positions
+        return _each(copies)
 
 
 class RowsWriter:
@@ -66,56 +69,80 @@ class RowsWriter:
 
     def __init__(self, name: str, columns: Sequence[str]) -> None:
         self._name = name
-        self._columns = columns
-        self._layouts: OrderedDict[int, tuple[bytearray, np.ndarray]] = OrderedDict()
+        self._columns = tuple(columns)
 
-    def write(self, rows: np.ndarray) -> bytes:
-        """Return the message for (k, columns) rows, k at least 1."""
-        buffer, numbers = self._layouts.get(len(rows)) or self._lay_out(len(rows))
-        numbers[...] = rows
-        return bytes(buffer)
-
-    def _lay_out(self, count: int) -> tuple[bytearray, np.ndarray]:
-        width = len(self._columns)
-        buffer = bytearray(LITTLE_ENDIAN)
-        dimensions = ((self._name, count, count * width), (','.join(self._columns), width, width))
-        _add_uint32(buffer, len(dimensions))
-        for label, size, stride in dimensions:
-            _add_string(buffer, label)
-            _add_uint32(buffer, size)
-            _add_uint32(buffer, stride)
-        _add_uint32(buffer, 0)  # data_offset
-        numbers = _add_rows(buffer, count * width, np.zeros((count, width)))
-        if len(self._layouts) == SHAPES_KEPT:
-            self._layouts.popitem(last=False)
-        self._layouts[count] = buffer, numbers
-        return self._layouts[count]
+    def write(self, rows: np.ndarray) -> list[bytes]:
+        """Return the messages for (m, k, columns) numbers, k at least 1."""
+        count, *shape = rows.shape
+        copies = _copies(_rows_message(self._name, self._columns, shape[0]), count)
+        _doubles(copies, shape)[...] = rows
+        return _each(copies)
 
 
-def clock_bytes(stamp: int) -> bytes:
-    """Return what `conversions.to_clock` makes of a sim time in ns."""
-    return LITTLE_ENDIAN + _STAMP.pack(*divmod(stamp, SECOND_NS))
+def clock_bytes(stamps: Sequence[int]) -> list[bytes]:
+    """Return what `conversions.to_clock` makes of sim times in ns."""
+    copies = _copies(LITTLE_ENDIAN + bytes(STAMP), len(stamps))
+    _put_stamps(copies, stamps)
+    return _each(copies)
 
 
-def _align(buffer: bytearray, size: int) -> None:
-    buffer += bytes(-(len(buffer) - len(LITTLE_ENDIAN)) % size)
+@lru_cache(SHAPES_KEPT)
+def _rows_message(name: str, columns: tuple[str, ...], count: int) -> bytes:
+    width = len(columns)
+    message = bytearray(LITTLE_ENDIAN)
+    dimensions = ((name, count, count * width), (','.join(columns), width, width))
+    _add_uint32(message, len(dimensions))
+    for label, size, stride in dimensions:
+        _add_string(message, label)
+        _add_uint32(message, size)
+        _add_uint32(message, stride)
+    _add_uint32(message, 0)  # data_offset
+    _add_doubles(message, count * width, np.zeros((count, width)))
+    return bytes(message)
 
 
-def _add_uint32(buffer: bytearray, number: int) -> None:
-    _align(buffer, 4)
-    buffer += struct.pack('<I', number)
+def _add_uint32(message: bytearray, number: int) -> None:
+    _align(message, 4)
+    message += struct.pack('<I', number)
 
 
-def _add_string(buffer: bytearray, text: str) -> None:
+def _add_string(message: bytearray, text: str) -> None:
     data = text.encode() + b'\0'
-    _add_uint32(buffer, len(data))
-    buffer += data
+    _add_uint32(message, len(data))
+    message += data
 
 
-def _add_rows(buffer: bytearray, length: int, rows: np.ndarray) -> np.ndarray:
-    """Add a sequence of this length that consists of doubles; return a view of these."""
-    _add_uint32(buffer, length)
-    _align(buffer, DOUBLE)
-    start = len(buffer)
-    buffer += rows.astype('<f8').tobytes()
-    return np.frombuffer(buffer, '<f8', offset=start).reshape(rows.shape)
+def _add_doubles(message: bytearray, length: int, numbers: np.ndarray) -> None:
+    """Add a sequence of this length, which consists of doubles and is the message's last field."""
+    _add_uint32(message, length)
+    _align(message, DOUBLE)
+    message += numbers.astype('<f8').tobytes()
+
+
+def _align(message: bytearray, size: int) -> None:
+    message += bytes(-(len(message) - len(LITTLE_ENDIAN)) % size)
+
+
+def _copies(message: bytes, count: int) -> np.ndarray:
+    """Return an array of bytes, (count, size), each row of it the message."""
+    copies = np.empty((count, len(message)), np.uint8)
+    copies[...] = np.frombuffer(message, np.uint8)
+    return copies
+
+
+def _put_stamps(copies: np.ndarray, stamps: Sequence[int]) -> None:
+    start = len(LITTLE_ENDIAN)
+    fields = copies[:, start : start + STAMP].view('<i4')
+    fields[:, 0], fields[:, 1] = np.divmod(stamps, SECOND_NS)
+
+
+def _doubles(copies: np.ndarray, shape: Sequence[int]) -> np.ndarray:
+    """Return a view of the last field of each message, (count, *shape)."""
+    start = copies.shape[1] - DOUBLE * shape[0] * shape[1]
+    return copies[:, start:].view('<f8').reshape(len(copies), *shape)
+
+
+def _each(copies: np.ndarray) -> list[bytes]:
+    size = copies.shape[1]
+    data = copies.tobytes()
+    return [data[start : start + size] for start in range(0, len(data), size)]

@@ -42,6 +42,9 @@ class Recorder:
     def _keep(self, kind, item):
         self.sent.append((kind, item))
 
+    def prepare(self, block):
+        self.block = block
+
     def frame(self, frame):
         self._keep('frame', frame)
 

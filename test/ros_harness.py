@@ -226,8 +226,10 @@ class Process:
             assert status is None, f'ended with status {status}:\n{process.stderr}'
 
     def __init__(self, module, *args, stdout=subprocess.PIPE):
+        """Start a module of the package, or a file."""
+        command = [module] if isinstance(module, Path) else ['-m', f'pool_sim_ros.{module}']
         self._popen = subprocess.Popen(
-            [sys.executable, '-m', f'pool_sim_ros.{module}', *args],
+            [sys.executable, *command, *args],
             stdout=stdout, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True,
             env=os.environ | {'PYTHONUNBUFFERED': '1', 'RCUTILS_LOGGING_USE_STDOUT': '0'},
         )
@@ -295,10 +297,10 @@ class Process:
             self._running.remove(self)
 
 
-def start_node(*args, **parameters):
+def start_node(*args, module='sim_node', **parameters):
     """Start sim_node as a process of its own."""
     settings = [word for name, value in parameters.items() for word in ('-p', f'{name}:={value}')]
-    return Process('sim_node', *args, '--ros-args', *settings)
+    return Process(module, *args, '--ros-args', *settings)
 
 
 def node_process(*args, **parameters):

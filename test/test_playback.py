@@ -6,7 +6,7 @@ from fakes import Glide
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pool_sim_ros.playback import BLOCK, Motion, Playback
+from pool_sim_ros.playback import BLOCK, BLOCK_BALLS, Motion, Playback
 
 LAYOUT = np.array([[0.5, 0.5], [1.0, 0.5]])
 
@@ -159,3 +159,48 @@ def test_frames_do_not_change_afterwards():
         for now, then in zip((frame.positions, frame.velocities, frame.collisions), copy,
                              strict=True):
             assert np.array_equal(now, then)
+
+
+@given(
+    st.integers(1, 240),
+    st.lists(
+        st.one_of(
+            st.just('frame'), st.just('reset'), st.just('strike'), st.just('abandon'),
+            st.tuples(st.integers(1, 200), st.floats(0.0, 1.0)),
+        ),
+        max_size=30,
+    ),
+)
+def test_looking_ahead_changes_nothing(rate, commands):
+    looking, plain = Playback(LAYOUT, rate), Playback(LAYOUT, rate)
+    for command in commands:
+        looking.look_ahead()
+        shown = []
+        for playback in (looking, plain):
+            match command, playback.motion:
+                case 'reset', _:
+                    playback.reset(LAYOUT + 0.01)
+                case 'strike', Motion.AT_REST:
+                    playback.strike()
+                case 'abandon', Motion.COMPUTING:
+                    playback.abandon()
+                case (ticks, share), Motion.COMPUTING:
+                    lasts = (ticks + share) / rate
+                    events = [(lasts * share, 0), (lasts, 1), (lasts, 2)]
+                    playback.computed(Glide(LAYOUT, (0.01, 0.02), lasts, events))
+            shown.append([playback.next_frame() for _ in range(1 if command == 'frame' else 70)])
+        for ours, others in zip(*shown, strict=True):
+            assert (ours.tick, ours.stamp) == (others.tick, others.stamp)
+            assert (ours.started, ours.finished) == (others.started, others.finished)
+            assert ours.moving == others.moving == bool(ours.velocities.any())
+            for name in ('positions', 'velocities', 'collisions'):
+                assert np.array_equal(getattr(ours, name), getattr(others, name))
+
+
+@pytest.mark.parametrize('balls', [1, BLOCK_BALLS // BLOCK + 1, BLOCK_BALLS + 1])
+def test_tables_of_any_number_of_balls(balls):
+    layout = np.arange(2.0 * balls).reshape(-1, 2)
+    frames = play(Playback(layout, 100), Glide(layout, (1.0, 0.0), 0.035))
+    assert [frame.positions[-1, 0] - layout[-1, 0] for frame in frames] == pytest.approx(
+        [0.0, 0.01, 0.02, 0.03, 0.035]
+    )

@@ -242,3 +242,29 @@ def test_it_says_that_it_is_ready_and_what_it_waits_for(start, monkeypatch):
     go_on.set()
     assert player.ready.wait(60.0)
     assert output.all('tell')[-1] == 'ready'
+
+
+@pytest.mark.parametrize('real_time_factor', [0.02, 1.0, 15.0, 25.0, 100.0, 1e4])
+def test_state_and_diagnostics_go_on_at_any_speed(start, monkeypatch, real_time_factor):
+    monkeypatch.setattr(player_module, 'STATE_PERIOD', 0.01)
+    monkeypatch.setattr(player_module, 'HEALTH_PERIOD', 0.01)
+    player, output = start(real_time_factor=real_time_factor)
+    for kind in ('state', 'diagnostics'):
+        count = len(output.all(kind))
+        wait_until(lambda k=kind, c=count: len(output.all(k)) >= c + 3, kind)
+
+
+@pytest.mark.parametrize('real_time_factor', [0.5, 1.0, 20.0])
+def test_no_frame_is_shown_before_it_is_due(start, monkeypatch, real_time_factor):
+    due = []
+
+    def shown(pacer):
+        due.append(pacer._clock() - pacer._due())
+        original(pacer)
+
+    original = player_module.Pacer.shown
+    monkeypatch.setattr(player_module.Pacer, 'shown', shown)
+    player, output = start(real_time_factor=real_time_factor)
+    wait_until(lambda: len(output.all('frame')) >= 20, 'frames')
+    player.stop(0.0)
+    assert min(due) >= 0.0

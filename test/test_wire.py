@@ -45,50 +45,55 @@ def random_rows(seed, count, columns):
 )
 def test_poses_are_the_bytes_that_ros_makes(frame_id, radii, frames):
     writer = wire.PosesWriter(frame_id, radii)
-    for stamp, seed in frames:
-        positions = random_rows(seed, len(radii), 2)
-        message = conversions.to_poses(frame_id, stamp, positions, radii)
-        assert_same_bytes(writer.write(stamp, positions), message)
+    stamps = [stamp for stamp, _ in frames]
+    positions = np.array([random_rows(seed, len(radii), 2) for _, seed in frames])
+    written = writer.write(stamps, positions)
+    for data, stamp, places in zip(written, stamps, positions, strict=True):
+        assert_same_bytes(data, conversions.to_poses(frame_id, stamp, places, radii))
 
 
 @given(st.integers(1, 50), st.lists(st.integers(0, 2**32), min_size=1, max_size=4))
 def test_velocities_are_the_bytes_that_ros_makes(balls, seeds):
     writer = wire.RowsWriter('ball', VELOCITY_COLUMNS)
-    for seed in seeds:
-        rows = random_rows(seed, balls, 2)
-        assert_same_bytes(writer.write(rows), conversions.to_velocities(rows))
+    frames = np.array([random_rows(seed, balls, 2) for seed in seeds])
+    for data, rows in zip(writer.write(frames), frames, strict=True):
+        assert_same_bytes(data, conversions.to_velocities(rows))
+
+
+def assert_written(writer, rows):
+    [data] = writer.write(rows[np.newaxis])
+    assert_same_bytes(data, conversions.to_collisions(rows))
 
 
 @given(st.lists(st.tuples(st.integers(1, 30), st.integers(0, 2**32)), min_size=1, max_size=8))
 def test_collisions_are_the_bytes_that_ros_makes_however_many_come(frames):
     writer = collisions_writer()
     for count, seed in frames:
-        rows = random_rows(seed, count, COLUMNS)
-        assert_same_bytes(writer.write(rows), conversions.to_collisions(rows))
+        assert_written(writer, random_rows(seed, count, COLUMNS))
 
 
 def test_more_shapes_than_are_kept():
     writer = collisions_writer()
     for count in [*range(1, wire.SHAPES_KEPT + 3), 1, 2, wire.SHAPES_KEPT]:
-        rows = random_rows(count, count, COLUMNS)
-        assert_same_bytes(writer.write(rows), conversions.to_collisions(rows))
+        assert_written(writer, random_rows(count, count, COLUMNS))
 
 
-@given(STAMPS)
-def test_the_clock_is_the_bytes_that_ros_makes(stamp):
-    assert wire.clock_bytes(stamp) == serialize_message(conversions.to_clock(stamp))
+@given(st.lists(STAMPS, min_size=1))
+def test_the_clock_is_the_bytes_that_ros_makes(stamps):
+    assert wire.clock_bytes(stamps) == [
+        serialize_message(conversions.to_clock(stamp)) for stamp in stamps
+    ]
 
 
 @pytest.mark.parametrize('order', ['C', 'F'])
 def test_rows_in_any_memory_order(order):
     rows = np.array(random_rows(5, 3, COLUMNS), order=order)
-    writer = collisions_writer()
-    assert_same_bytes(writer.write(rows), conversions.to_collisions(rows))
+    assert_written(collisions_writer(), rows)
 
 
 def test_what_was_written_does_not_change_afterwards():
     writer = wire.PosesWriter('table', [0.1])
-    first = writer.write(1, np.array([[1.0, 2.0]]))
+    [first] = writer.write([1], np.array([[[1.0, 2.0]]]))
     copy = bytes(bytearray(first))
-    writer.write(2, np.array([[3.0, 4.0]]))
+    writer.write([2], np.array([[[3.0, 4.0]]]))
     assert first == copy
