@@ -87,6 +87,7 @@ setup(
         'record': ['rosbags'],
         'bench': ['pytest-benchmark', 'tqdm'],
         'test': [
+            'cyclonedds',
             'catkin_pkg',
             'colcon-package-information',
             'colcon-ros',

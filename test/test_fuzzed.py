@@ -2,19 +2,30 @@
 
 import json
 import struct
+import subprocess
+import sys
 import uuid
+from pathlib import Path
 
 import pytest
 from geometry_msgs.msg import Point, Pose, PoseArray, Quaternion, Twist, Vector3
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from rcl_interfaces.srv import SetParameters
+from rcl_interfaces.srv import (
+    DescribeParameters,
+    GetParameters,
+    GetParameterTypes,
+    ListParameters,
+    SetParameters,
+    SetParametersAtomically,
+)
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
 from ros_harness import Observer, Ros, node_process
 from std_msgs.msg import String
 from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
 
+from pool_sim_ros import interface
 from pool_sim_ros.settings import PARAMETERS
 
 
@@ -75,6 +86,36 @@ def test_no_message_at_all_ends_nothing(victim, name, data):
     attacker = Attacker(observer._ros)  # DDS serves one no more that has sent an empty message
     attacker.send_raw(name, data)
     is_served(observer)
+
+
+SERVICES = {
+    **{service.name: service.type for service in (interface.RESET, interface.SET_PAUSED)},
+    interface.STEP.name: interface.STEP.type,
+    'describe_parameters': DescribeParameters,
+    'get_parameter_types': GetParameterTypes,
+    'get_parameters': GetParameters,
+    'list_parameters': ListParameters,
+    'set_parameters': SetParameters,
+    'set_parameters_atomically': SetParametersAtomically,
+}
+
+
+@pytest.mark.parametrize('seed', range(3))
+def test_garbage_in_place_of_requests_to_services_ends_nothing(victim, seed):
+    observer, _ = victim
+    names = []
+    for name, kind in SERVICES.items():
+        package = kind.__module__.split('.')[0]
+        names += [f'pool_sim/{name}', f'{package}::srv::dds_::{kind.__name__}_Request_']
+    sender = subprocess.Popen(
+        [sys.executable, Path(__file__).with_name('garbage_requests.py'), str(seed), *names]
+    )
+    while sender.poll() is None:
+        is_served(observer)
+    assert sender.wait() == 0
+    is_served(observer)
+    assert observer.call(interface.RESET).success
+    assert observer.call(interface.SET_PAUSED, data=False).success
 
 
 FLOATS = st.floats(width=64)
