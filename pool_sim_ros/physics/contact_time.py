@@ -11,6 +11,9 @@ from pool_sim_ros.physics.kernel import inlined
 MAX_STEPS = 200
 """Far beyond what quadratic convergence needs; a graze, where it is linear, takes about 50."""
 
+TOUCH_ROUNDING = 2.0**-51
+"""Part of the square of the distance at contact that rounding may add to or take from it."""
+
 
 @inlined
 def time_to_cover(way, speed, deceleration):
@@ -57,31 +60,33 @@ def first_root(gap, closing, opening):
 
 
 @inlined
-def passes_by(dx, dy, wx, wy, gx, gy, touch, horizon):
-    """Return whether two balls stay too far apart sideways to touch before `horizon`.
+def gap_from_below(dx, dy, wx, wy, gx, gy, touch, horizon):
+    """Return a parabola in time that the squared gap of two balls is never below.
 
-    Across the relative velocity w the second ball moves by its acceleration alone, from
-    ``d x w`` to ``d x w + t^2 g x w / 2``, in units of |w|. Arguments as `time_to_moving_ball`.
+    That is up to `horizon`: the difference of the squares of distance and `touch`, m^2, as the
+    `gap`, `closing` and `opening` of `first_root`. Arguments as `time_to_moving_ball`.
+
+    The square of ``d + w t + g t^2 / 2`` is a quartic whose cubic term is ``w g t^3``, and with
+    the last one no less than ``-w^2 t^2``: both are taken at their worst.
     """
-    before = dx * wy - dy * wx
-    after = before + 0.5 * horizon * horizon * (gx * wy - gy * wx)
-    least = min(abs(before), abs(after))
-    margin = touch * touch * (wx * wx + wy * wy)
-    return (before * after > 0.0) & (least * least > margin * (1.0 + 1e-9))
+    squared = wx * wx + wy * wy
+    bending = wx * gx + wy * gy
+    worst = max(bending * horizon, -squared) if bending < 0.0 else 0.0
+    touch_squared = touch * touch
+    gap = dx * dx + dy * dy - touch_squared
+    gap = gap if gap > TOUCH_ROUNDING * touch_squared else 0.0
+    return gap, -2.0 * (dx * wx + dy * wy), 2.0 * (squared + dx * gx + dy * gy + worst)
 
 
 @inlined
-def stays_away(dx, dy, wx, wy, gx, gy, touch, horizon):
-    """Return whether two balls, along their present centre line, stay too far apart to touch.
+def stays_positive(gap, closing, opening, horizon):
+    """Return whether ``gap - closing t + opening t^2 / 2`` has no root before `horizon`.
 
-    That is before `horizon`. Arguments as `time_to_moving_ball`.
+    False where rounding might decide.
     """
-    squared = dx * dx + dy * dy
-    closing = min(dx * wx + dy * wy, 0.0)
-    bending = min(dx * gx + dy * gy, 0.0)
-    least = squared + horizon * (closing + 0.5 * horizon * bending)
-    apart = (least > 0.0) & (least * least > touch * touch * squared * (1.0 + 1e-9))
-    return apart | (closing + bending == 0.0)
+    at_end = gap - horizon * (closing - 0.5 * horizon * opening)
+    above = closing * closing < 2.0 * opening * gap * (1.0 - 1e-9)
+    return (at_end > 1e-9 * gap) & (above | (closing <= 0.0) | (closing > opening * horizon))
 
 
 @inlined
@@ -100,30 +105,30 @@ def time_to_moving_ball(dx, dy, wx, wy, gx, gy, touch, horizon):
 
     Notes
     -----
-    With the present centre line held fixed, the gap along it is a quadratic
-    in time and never more than the true gap. Its first root is therefore a
-    lower bound of the contact time: step there and repeat. It cannot step past a
-    contact, and converges as Newton's method does.
+    The first root of a parabola that the squared gap is never below is a lower
+    bound of the contact time: step there and repeat. It cannot step past a
+    contact, and converges as Newton's method does; without friction the first
+    step is exact.
     """
-    if (
-        (horizon <= 0.0)
-        | stays_away(dx, dy, wx, wy, gx, gy, touch, horizon)
-        | passes_by(dx, dy, wx, wy, gx, gy, touch, horizon)
-    ):
+    gap, closing, opening = gap_from_below(dx, dy, wx, wy, gx, gy, touch, horizon)
+    if (horizon <= 0.0) | stays_positive(gap, closing, opening, horizon):
         return np.inf
     t = 0.0
     for _ in range(MAX_STEPS):
-        px = dx + t * (wx + 0.5 * t * gx)
-        py = dy + t * (wy + 0.5 * t * gy)
-        distance = np.sqrt(px * px + py * py)
-        inverse = 1.0 / distance
-        nx, ny = px * inverse, py * inverse
-        gap = max(distance - touch, 0.0)
-        closing = -(nx * (wx + t * gx) + ny * (wy + t * gy))
-        step = first_root(gap, closing, nx * gx + ny * gy)
+        step = first_root(gap, closing, opening)
         if not t + step < horizon:
             return np.inf
         if t + step == t:
             return t
         t += step
+        gap, closing, opening = gap_from_below(
+            dx + t * (wx + 0.5 * t * gx),
+            dy + t * (wy + 0.5 * t * gy),
+            wx + t * gx,
+            wy + t * gy,
+            gx,
+            gy,
+            touch,
+            horizon - t,
+        )
     return t

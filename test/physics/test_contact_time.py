@@ -176,9 +176,28 @@ def test_time_to_cover_without_friction():
     assert contact_time.time_to_cover(0.5, 2.0, 0.0) == 0.25
 
 
-@pytest.mark.parametrize('rule', [contact_time.passes_by, contact_time.stays_away])
+def test_parabola_never_above_the_squared_gap():
+    rng = np.random.default_rng(8)
+    for _ in range(500):
+        d, w, g = rng.normal(0.0, 0.3, 2), rng.normal(size=2), rng.normal(0.0, 2.0, 2)
+        touch, horizon = 0.99 * math.hypot(*d), rng.choice([1e-3, 0.3, 2.0])
+        gap, closing, opening = contact_time.gap_from_below(*d, *w, *g, touch, horizon)
+        t = np.linspace(0.0, horizon, 300)
+        distance = np.hypot(*(d + np.outer(t, w) + 0.5 * np.outer(t * t, g)).T)
+        squared_gap = distance**2 - touch**2
+        assert gap == pytest.approx(squared_gap[0], rel=1e-12)
+        assert np.all(gap - closing * t + 0.5 * opening * t**2 <= squared_gap + 1e-14 * (1 + t**4))
+
+
+def test_a_gap_of_less_than_rounding_is_none():
+    apart = contact_time.gap_from_below(0.11 + 2e-16, 0.0, 1.0, 0.0, 0.0, 0.0, 0.11, 1.0)
+    touching = contact_time.gap_from_below(math.nextafter(0.11, 1.0), 0, 1.0, 0, 0, 0, 0.11, 1.0)
+    overlapping = contact_time.gap_from_below(0.1, 0.0, 1.0, 0.0, 0.0, 0.0, 0.11, 1.0)
+    assert apart[0] > 0.0 and touching[0] == 0.0 and overlapping[0] == 0.0
+
+
 @pytest.mark.parametrize('horizon', [1e-3, 0.3, 2.0, math.inf])
-def test_what_is_said_to_stay_apart_never_touches(rule, horizon):
+def test_what_is_said_to_stay_apart_never_touches(horizon):
     rng = np.random.default_rng(7)
     times = np.linspace(0.0, min(horizon, 1e3), 2000)[:, np.newaxis]
     said = 0
@@ -186,8 +205,11 @@ def test_what_is_said_to_stay_apart_never_touches(rule, horizon):
         place, velocity = rng.normal(0.0, 0.3, 2), rng.normal(0.0, rng.choice([0.01, 1.0]), 2)
         acceleration = rng.normal(0.0, rng.choice([0.0, 1.0]), 2)
         touch = min(0.1, 0.99 * math.hypot(*place))
-        if rule(*place, *velocity, *acceleration, touch, horizon):
+        relative_motion = *place, *velocity, *acceleration, touch, horizon
+        parabola = contact_time.gap_from_below(*relative_motion)
+        if contact_time.stays_positive(*parabola, horizon):
             said += 1
             way = place + times * velocity + 0.5 * times**2 * acceleration
             assert np.hypot(*way.T).min() > touch
+            assert contact_time.time_to_moving_ball(*relative_motion) == math.inf
     assert said > (0 if horizon == math.inf else 100)
