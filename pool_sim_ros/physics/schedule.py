@@ -25,13 +25,9 @@ def put_down(schedule, i, t):
     node = len(schedule) // 2 + i
     schedule[node].t = t
     while node > 1:
-        other = node ^ 1
-        winner = node
-        # Of two at one time the left one, however they got there.
-        if schedule[other].t < schedule[node].t or (
-            schedule[other].t == schedule[node].t and other < node
-        ):
-            winner = other
+        left = node & ~1
+        # Of two at one time the left one. No branch: it would be guessed wrong half the time.
+        winner = left + (schedule[left + 1].t < schedule[left].t)
         node >>= 1
         t, ball = schedule[winner].t, schedule[winner].ball
         if schedule[node].t == t and schedule[node].ball == ball:
