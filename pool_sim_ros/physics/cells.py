@@ -20,11 +20,15 @@ SPARE = 1e-6
 CELLS_PER_BALL = 1.7
 """Cells per ball, where the balls are small enough."""
 
+USUAL = 2
+"""Balls of a cell that are listed without a branch: hardly ever is there another."""
+
 
 class Cells(NamedTuple):
-    """The grid, and the first ball of each cell; `BALL` has the next ones."""
+    """The grid, and who is in which cell; n, the number of balls, stands for nobody."""
 
-    first: np.ndarray  # (rows, columns), -1 for an empty cell
+    first: np.ndarray  # (rows, columns): the first ball of each cell
+    after: np.ndarray  # by ball: the next one in its cell; after nobody comes nobody
     near: np.ndarray  # room for the numbers of all balls; holds them where the table has few
     moving: np.ndarray  # the same for those that move
     resting: Resting  # kept where the table has few balls
@@ -40,10 +44,11 @@ def new_cells(length: float, width: float, balls: np.ndarray) -> Cells:
         widest = 2.0 * balls['radius'].max() * (1.0 + SPARE)
         side = max(widest, np.sqrt(length * width / (n * CELLS_PER_BALL)))
         columns, rows = max(int(length / side), 1), max(int(width / side), 1)
-    first = np.full((rows, columns), -1, np.int32)
-    near = np.arange(n)
+    first = np.full((rows, columns), n, np.int32)
+    after = np.full(n + 1, n, np.int32)
+    near = np.arange(n + 1)
     resting = new_resting(balls if first.size == 1 else balls[:0])
-    return Cells(first, near, np.empty_like(near), resting, length / columns, width / rows)
+    return Cells(first, after, near, np.empty_like(near), resting, length / columns, width / rows)
 
 
 @kernel
@@ -62,9 +67,9 @@ def enter(balls, cells, i):
     """Make ball `i` the first of the cell whose numbers it has."""
     ball = balls[i]
     first = cells.first[ball.cell_y, ball.cell_x]
-    ball.after = first
+    cells.after[i] = first
     ball.before = -1
-    if first >= 0:
+    if first < len(balls):
         balls[first].before = i
     cells.first[ball.cell_y, ball.cell_x] = i
 
@@ -73,12 +78,13 @@ def enter(balls, cells, i):
 def leave(balls, cells, i):
     """Take ball `i` out of its cell."""
     ball = balls[i]
+    after = cells.after[i]
     if ball.before >= 0:
-        balls[ball.before].after = ball.after
+        cells.after[ball.before] = after
     else:
-        cells.first[ball.cell_y, ball.cell_x] = ball.after
-    if ball.after >= 0:
-        balls[ball.after].before = ball.before
+        cells.first[ball.cell_y, ball.cell_x] = after
+    if after < len(balls):
+        balls[after].before = ball.before
 
 
 @inlined
@@ -108,14 +114,19 @@ def all_moving(balls, cells, i):
 def list_cells(balls, cells, x0, x1, y0, y1):
     """Write the balls of cells (x0, y0) to (x1, y1) into `near`; return how many they are."""
     rows, columns = cells.first.shape
+    n = len(balls)
     count = 0
     for y in range(max(y0, 0), min(y1, rows - 1) + 1):
         for x in range(max(x0, 0), min(x1, columns - 1) + 1):
             k = cells.first[y, x]
-            while k >= 0:
+            for _ in range(USUAL):
+                cells.near[count] = k
+                count += k < n
+                k = cells.after[k]
+            while k < n:
                 cells.near[count] = k
                 count += 1
-                k = balls[k].after
+                k = cells.after[k]
     return count
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pool_sim_ros.physics.cells import Cells, fill, new_cells
+from pool_sim_ros.physics.cells import Cells, fill, has_few, new_cells
 from pool_sim_ros.physics.cluster import new_cluster
 from pool_sim_ros.physics.collision import (
     gather_crowd,
@@ -72,7 +72,7 @@ def play_many(
     """Play shots and fill in their ends; see `simulate_many`."""
     balls, cells = laid_out(table, at_rest)
     n = len(balls)
-    start_layout = copied(balls), cells.first.copy(), new_schedule(n)
+    start_layout = copied(balls), cells.first.copy(), cells.after.copy(), new_schedule(n)
     work = balls, cells, new_schedule(n), new_cluster(n)
     log = new_log(0, 0, wanted=False)
     ends = finals, np.empty((n, 2)), durations, counts
@@ -104,12 +104,16 @@ def run_many(start_layout, work, world, velocities, until, log, ends):
 @inlined
 def lay_out(start_layout, balls, cells, schedule):
     """Put everything back to the start."""
-    balls_at_start, first_at_start, nothing_due = start_layout
+    balls_at_start, first_at_start, after_at_start, nothing_due = start_layout
     for i in range(len(balls)):
         balls[i] = balls_at_start[i]
         note_motion(cells.resting, balls, i)
     for k in range(len(schedule)):
         schedule[k] = nothing_due[k]
+    if has_few(cells):
+        return
+    for i in range(len(balls)):
+        cells.after[i] = after_at_start[i]
     rows, columns = cells.first.shape
     for row in range(rows):
         for column in range(columns):

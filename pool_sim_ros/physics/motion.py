@@ -28,8 +28,7 @@ BALL = np.dtype(
         ('changes', 'i4'),  # how often its motion has changed
         ('cell_x', 'i4'),
         ('cell_y', 'i4'),
-        ('after', 'i4'),  # the next ball in its cell; -1 for none
-        ('before', 'i4'),  # the one before
+        ('before', 'i4'),  # the ball before it in its cell; -1 for none
         ('repeats', 'i2'),  # weak contacts in quick succession, up to now
         ('rounds', 'i2'),  # contacts in the rattle that `touched` belongs to
         ('is_cue', 'i4'),
