@@ -271,3 +271,13 @@ def first_in_the_way(balls, position, direction, radius, reach):
             if way < best[0]:
                 best = way, k
     return best
+
+
+def neighbours(balls, i):
+    """Return the numbers, in order, of the balls in the cell of ball `i` and in those around it."""
+    return [
+        k
+        for k, ball in enumerate(balls)
+        if abs(ball['cell_x'] - balls[i]['cell_x']) <= 1
+        and abs(ball['cell_y'] - balls[i]['cell_y']) <= 1
+    ]

@@ -63,15 +63,16 @@ def is_touched(balls, world, cells, i, but, now):
     if has_few(cells) and touches_resting(cells.resting, x, y, near, i, but):
         return True
     others, count = all_moving(balls, cells, i)
+    # Ball `i` itself and `but` are as close as that every time: no branch for them in the loop.
+    found = 0
     for m in range(count):
         k = others[m]
         other = balls[k]
         xk, yk = position_at(other, now, world.deceleration)
         touch = near + other.radius
         close = (xk - x) * (xk - x) + (yk - y) * (yk - y) <= touch * touch
-        if close and k != i and k != but:
-            return True
-    return False
+        found |= close & (k != i) & (k != but)
+    return found != 0
 
 
 @inlined

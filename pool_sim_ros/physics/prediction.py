@@ -121,8 +121,9 @@ def meet(balls, world, cells, schedule, count, done, n_done, i, x, y, speed, now
         way, partner = first_in_the_way(cells.resting, x, y, ball.ux, ball.uy, ball.radius, reach)
         moving, n_moving = cells.resting.moving, cells.resting.count[0]
     else:
-        way, partner, n_moving = first_of_the_near(balls, cells, count, ball, x, y, reach)
-        moving = cells.moving
+        resting, moving = cells.near, cells.moving
+        n_resting, n_moving = sort_out(balls, cells, count, i)
+        way, partner = first_of(balls, resting, n_resting, ball, x, y, reach)
     if partner >= 0:
         book(balls, i, partner, now + time_to_cover(way, speed, a))
     for m in range(n_moving):
@@ -132,23 +133,37 @@ def meet(balls, world, cells, schedule, count, done, n_done, i, x, y, speed, now
 
 
 @inlined
-def first_of_the_near(balls, cells, count, ball, x, y, reach):
-    """Return the way in m to the first resting ball among `count` near ones, and which that is.
+def sort_out(balls, cells, count, i):
+    """Divide the `count` balls that are near into those that rest, in `near`, and those that move.
 
-    As `first_in_the_way`. Also lists those that move, and returns how many they are.
+    Ball `i`, which moves, is left out. Returns how many rest and how many move. No branches: they
+    would be guessed wrong.
     """
-    way, partner = reach, STOP
-    n_moving = 0
+    n_resting = n_moving = 0
     for m in range(count):
         j = cells.near[m]
-        other = balls[j]
+        moves = balls[j].speed > 0.0
+        cells.near[n_resting] = j
         cells.moving[n_moving] = j
-        n_moving += other.speed > 0.0
+        n_resting += not moves
+        n_moving += moves & (j != i)
+    return n_resting, n_moving
+
+
+@inlined
+def first_of(balls, resting, count, ball, x, y, reach):
+    """Return the way in m to the first of `count` resting balls, and which that is.
+
+    As `first_in_the_way`.
+    """
+    way, partner = reach, STOP
+    for m in range(count):
+        other = balls[resting[m]]
         touch = ball.radius + other.radius
         to_ball = way_to_resting_ball(other.x - x, other.y - y, ball.ux, ball.uy, touch, way)
-        if (to_ball < way) & (other.speed == 0.0):
-            way, partner = to_ball, j
-    return way, partner, n_moving
+        if to_ball < way:
+            way, partner = to_ball, resting[m]
+    return way, partner
 
 
 @inlined
