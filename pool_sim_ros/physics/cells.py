@@ -17,7 +17,7 @@ FEW = 40
 SPARE = 1e-6
 """What a cell is wider than the widest ball, as a part of it: far above rounding."""
 
-CELLS_PER_BALL = 1.7
+CELLS_PER_BALL = 3.0
 """Cells per ball, where the balls are small enough."""
 
 USUAL = 2
