@@ -6,7 +6,7 @@ import numpy as np
 
 from pool_sim_ros.physics.cells import neighbours
 from pool_sim_ros.physics.contact import contact_normal, cushion_gap, cushion_normal
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.kernel import NONE, kernel
 from pool_sim_ros.physics.motion import CUSHION_X0, position_at, speed_at
 
 TOUCHING = 1e-9
@@ -120,7 +120,7 @@ def gather(balls, world, cells, cluster, a, b, now, slowest):
     contacts, members : int
         How many contacts take part, and how many balls are in them.
     """
-    members = join(balls, world, cluster, 0, a, now)
+    members = join(balls, world, cluster, NONE, a, now)
     if b >= 0:
         members = join(balls, world, cluster, members, b, now)
     count = 0
@@ -150,14 +150,14 @@ def gather(balls, world, cells, cluster, a, b, now, slowest):
 @kernel
 def take_alone(balls, world, cluster, a, b, now):
     """Collect only the contact of ball `a` with `b`, even if rounding has it part already."""
-    members = join(balls, world, cluster, 0, a, now)
+    members = join(balls, world, cluster, NONE, a, now)
     nx, ny = cushion_normal(CUSHION_X0 - b)
     if b >= 0:
         members = join(balls, world, cluster, members, b, now)
         xa, ya = position_at(balls[a], now, world.deceleration)
         xb, yb = position_at(balls[b], now, world.deceleration)
         nx, ny = contact_normal(xb - xa, yb - ya)
-    count = add_contact(cluster, 0, a, b, nx, ny, -np.inf)
+    count = add_contact(cluster, NONE, a, b, nx, ny, -np.inf)
     return count, keep_those_in_contact(cluster, count, members)
 
 

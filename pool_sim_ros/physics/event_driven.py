@@ -14,7 +14,7 @@ from pool_sim_ros.physics.collision import (
     log_motion,
     stands_alone,
 )
-from pool_sim_ros.physics.kernel import inlined, kernel
+from pool_sim_ros.physics.kernel import NONE, inlined, kernel
 from pool_sim_ros.physics.motion import STOP, copied, position_at, set_velocity, speed_at
 from pool_sim_ros.physics.prediction import (
     cross,
@@ -28,9 +28,6 @@ from pool_sim_ros.physics.runaway import most_energy, runs_away
 from pool_sim_ros.physics.schedule import new_schedule
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
-
-NOBODY = np.int64(0)
-"""How many have looked at a ball's pairs already. Not a literal: each compiles all anew."""
 
 FIRST_ROOM = 64
 """Events beyond one a ball that a log holds before it is enlarged; most shots have fewer."""
@@ -132,7 +129,7 @@ def start(balls, world, cells, schedule, velocities, log):
     for i in range(len(balls)):
         log_motion(balls, i, 0.0, log)
         if balls[i].speed > 0.0:
-            predict(balls, world, cells, schedule, cells.near, NOBODY, i, 0.0)
+            predict(balls, world, cells, schedule, cells.near, NONE, i, 0.0)
     return most_energy(balls, world, velocities)
 
 
@@ -154,7 +151,7 @@ def run(balls, world, cells, schedule, cluster, until, most, log):
             cross(balls, world, cells, schedule, a, now)
         elif b >= 0 and balls[b].changes != ball.partner_changes:
             ball.contact = np.inf
-            predict(balls, world, cells, schedule, cells.near, NOBODY, a, now)
+            predict(balls, world, cells, schedule, cells.near, NONE, a, now)
         elif not has_room(log, 1, 2):
             return False
         elif b == STOP:

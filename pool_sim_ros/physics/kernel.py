@@ -1,5 +1,6 @@
 """How the compiled functions of this package are compiled."""
 
+import numpy as np
 from numba import njit
 
 OPTIONS = {'cache': True, 'error_model': 'numpy', 'nogil': True, '_nrt': False}
@@ -15,3 +16,6 @@ kernel = njit(**OPTIONS)
 
 inlined = njit(**OPTIONS, forceinline=True)
 """Compile a function into those that call it: passing arrays to it would cost more than it does."""
+
+NONE = np.int64(0)
+"""How many there are to begin with. Not a literal: for each of those a kernel is compiled anew."""

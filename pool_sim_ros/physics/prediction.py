@@ -13,7 +13,7 @@ from pool_sim_ros.physics.contact_time import (
     time_to_moving_ball,
     way_to_resting_ball,
 )
-from pool_sim_ros.physics.kernel import inlined, kernel
+from pool_sim_ros.physics.kernel import NONE, inlined, kernel
 from pool_sim_ros.physics.motion import (
     CUSHION_X0,
     CUSHION_X1,
@@ -72,7 +72,7 @@ def cross(balls, world, cells, schedule, i, now):
     x, y = position_at(ball, now, world.deceleration)
     speed = speed_at(ball, now, world.deceleration)
     count = move_on(balls, cells, i, x, y)
-    meet(balls, world, cells, schedule, count, cells.near, 0, i, x, y, speed, now)
+    meet(balls, world, cells, schedule, count, cells.near, NONE, i, x, y, speed, now)
     plan(balls, world, cells, schedule, i, x, y, speed, now)
 
 
