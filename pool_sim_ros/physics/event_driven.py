@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from pool_sim_ros.physics.cells import Cells, fill, has_few, new_cells
@@ -16,6 +18,7 @@ from pool_sim_ros.physics.collision import (
 )
 from pool_sim_ros.physics.kernel import NONE, inlined, kernel
 from pool_sim_ros.physics.motion import STOP, copied, position_at, set_velocity, speed_at
+from pool_sim_ros.physics.own_lines import own_lines
 from pool_sim_ros.physics.prediction import (
     cross,
     lay_down,
@@ -62,18 +65,26 @@ def play_many(
     at_rest: np.ndarray,
     velocities: np.ndarray,
     until: float,
-    finals: np.ndarray,
-    durations: np.ndarray,
-    counts: np.ndarray,
+    ends: tuple[np.ndarray, np.ndarray, np.ndarray],
+    parts: Iterator[slice],
+    alone: bool,
 ) -> None:
-    """Play shots and fill in their ends; see `simulate_many`."""
+    """Play shots and fill in their ends; see `simulate_many`.
+
+    Those in `parts`, of which other threads take theirs too unless this one is `alone`.
+    """
     balls, cells = laid_out(table, at_rest)
     n = len(balls)
     start_layout = copied(balls), cells.first.copy(), cells.after.copy(), new_schedule(n)
     work = balls, cells, new_schedule(n), new_cluster(n)
     log = new_log(0, 0, wanted=False)
-    ends = finals, np.empty((n, 2)), durations, counts
-    run_many(start_layout, work, table.world, velocities, until, log, ends)
+    if not alone:
+        work, log = own_lines(work), own_lines(log)
+    finals, durations, counts = ends
+    velocity = np.empty((n, 2))
+    for part in parts:
+        ends_of_part = finals[part], velocity, durations[part], counts[part]
+        run_many(start_layout, work, table.world, velocities[part], until, log, ends_of_part)
 
 
 def laid_out(table: Table, at_rest: np.ndarray) -> tuple[np.ndarray, Cells]:

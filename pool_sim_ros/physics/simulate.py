@@ -121,23 +121,28 @@ def simulate_many(
     finals = np.empty((shots, len(at_rest), 2))
     durations = np.empty(shots)
     counts = np.empty(shots, np.int64)
+    ends = finals, durations, counts
+    parts = [slice(first, first + CHUNK) for first in range(0, shots, CHUNK)]
+    left = iter(parts)
+    helpers = min(len(os.sched_getaffinity(0)), len(parts)) - 1
 
-    def play(first: int) -> None:
-        part = slice(first, first + CHUNK)
-        ends = finals[part], durations[part], counts[part]
+    def play() -> None:
         if integrator == 'event':
-            event_driven.play_many(table, at_rest, moving[part], limit, *ends)
+            event_driven.play_many(table, at_rest, moving, limit, ends, left, helpers < 1)
         else:
-            time_slicing.play_many(table, at_rest, moving[part], time_slice, limit, *ends)
+            time_slicing.play_many(table, at_rest, moving, time_slice, limit, ends, left)
 
-    chunks = range(0, shots, CHUNK)
-    workers = min(len(os.sched_getaffinity(0)), len(chunks))
-    if workers <= 1:
-        for first in chunks:
-            play(first)
+    if helpers < 1:
+        play()
     else:
-        with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(play, chunks))
+        with ThreadPoolExecutor(helpers) as pool:
+            helping = [pool.submit(play) for _ in range(helpers)]
+            try:
+                play()
+            finally:
+                list(left)  # interrupted: nobody else goes on either
+        for helper in helping:
+            helper.result()
     given_up = np.isnan(durations)
     if given_up.any():
         raise _gains_energy(table, f'shot {given_up.argmax()}')

@@ -8,6 +8,7 @@ that rests, and looking at a pair that is too far apart to touch within the next
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -79,13 +80,13 @@ def play_many(
     velocities: np.ndarray,
     step: float,
     until: float,
-    finals: np.ndarray,
-    durations: np.ndarray,
-    counts: np.ndarray,
+    ends: tuple[np.ndarray, np.ndarray, np.ndarray],
+    parts: Iterator[slice],
 ) -> None:
-    """Play shots and fill in their ends; see `simulate_many`."""
+    """Play the shots in `parts` and fill in their ends; see `simulate_many`."""
+    finals, durations, counts = ends
     loss = step * table.mu_ball_surface * table.gravity
-    for shot in range(len(velocities)):
+    for shot in (shot for part in parts for shot in range(*part.indices(len(velocities)))):
         state = new_state(table, at_rest, velocities[shot])
         log = new_log(0, 0, wanted=False)
         run(state, at_rest, table.world, step, loss, last_slice(until, step), log)

@@ -1,6 +1,9 @@
 """One motion however it is asked for: cut, taken up again, repeated, or one of many."""
 
 import dataclasses
+import sys
+import threading
+import time
 
 import numpy as np
 import pytest
@@ -90,3 +93,24 @@ def test_no_shots_at_all():
     finals, durations, counts = simulate_many(report_table(), np.empty((0, 2)))
     assert finals.shape == (0, 11, 2)
     assert durations.shape == counts.shape == (0,)
+
+
+def test_who_interrupts_many_shots_does_not_wait_for_the_other_threads(monkeypatch):
+    helper_plays, taken = threading.Event(), []
+
+    def play_many(table, at_rest, velocities, until, ends, parts, alone):
+        if threading.current_thread() is threading.main_thread():
+            assert helper_plays.wait(60.0)
+            raise KeyboardInterrupt
+        for part in parts:
+            helper_plays.set()
+            taken.append(part)
+            time.sleep(0.01)
+
+    module = sys.modules[simulate_many.__module__]
+    monkeypatch.setattr(module.event_driven, 'play_many', play_many)
+    monkeypatch.setattr(module, 'CHUNK', 1)
+    monkeypatch.setattr(module.os, 'sched_getaffinity', lambda _: {0, 1})
+    with pytest.raises(KeyboardInterrupt):
+        simulate_many(report_table(), np.full((2000, 2), 0.1))
+    assert 0 < len(taken) < 2000
