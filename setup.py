@@ -87,10 +87,10 @@ setup(
         'record': ['rosbags'],
         'bench': ['pytest-benchmark', 'tqdm'],
         'test': [
-            'cyclonedds',
             'catkin_pkg',
             'colcon-package-information',
             'colcon-ros',
+            'cyclonedds',  # sends what rclpy cannot
             'hypothesis',
             'mcap',
             'mpmath',

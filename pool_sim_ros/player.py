@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 import traceback
@@ -218,7 +219,7 @@ class Player:
                         self._show_signs_of_life()
                         self._look_ahead()
                 time.sleep(self._nap(wait))
-                just_before = wait > HEAD_START and not just_before
+                just_before = HEAD_START < wait <= LONGEST_NAP and not just_before
         except Exception:
             self._fail('playback failed')
 
@@ -234,9 +235,9 @@ class Player:
         self._output.prepare(self._simulation.playback.look_ahead())
 
     def _show_due_frames(self) -> float:
-        """Show what is due; return the seconds until the next frame is."""
+        """Show what is due; return the seconds until the next frame is, inf while paused."""
         if self._simulation.playback.paused:
-            return LONGEST_NAP
+            return math.inf
         end = time.monotonic() + LONGEST_BATCH
         while (wait := self._pacer.wait(self._simulation.moving)) <= 0.0:
             self._show_next_frame()
@@ -260,7 +261,7 @@ class Player:
         playback = self._simulation.playback
         if playback.paused and now >= self._next_clock:
             self._output.clock(playback.stamp)
-            self._next_clock = now + PAUSED_CLOCK_PERIOD
+            self._next_clock = max(self._next_clock + PAUSED_CLOCK_PERIOD, now)
         if now >= self._next_health:
             self._next_health = now + HEALTH_PERIOD
             self._show_health(now)

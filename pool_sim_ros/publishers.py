@@ -53,7 +53,7 @@ class Publishers:
             self._block_poses = self._to_poses.write(block.stamps, block.positions)
             self._block_velocities = self._to_velocities.write(block.velocities)
             self._block_collisions = {
-                index: self._to_collisions.write(rows[np.newaxis])
+                index: self._to_collisions.write(rows[np.newaxis])[0]
                 for index, rows in enumerate(block.collisions)
                 if len(rows)
             }
@@ -64,8 +64,8 @@ class Publishers:
         index = frame.index
         if self._clock is not None:
             self._clock.publish(self._block_clocks[index])
-        for message in self._block_collisions.get(index, ()):
-            self._collisions.publish(message)
+        if index in self._block_collisions:
+            self._collisions.publish(self._block_collisions[index])
         self._poses.publish(self._block_poses[index])
         self._velocities.publish(self._block_velocities[index])
         self._markers.frame(frame)

@@ -89,8 +89,7 @@ def test_no_message_at_all_ends_nothing(victim, name, data):
 
 
 SERVICES = {
-    **{service.name: service.type for service in (interface.RESET, interface.SET_PAUSED)},
-    interface.STEP.name: interface.STEP.type,
+    **{s.name: s.type for s in (interface.RESET, interface.SET_PAUSED, interface.STEP)},
     'describe_parameters': DescribeParameters,
     'get_parameter_types': GetParameterTypes,
     'get_parameters': GetParameters,

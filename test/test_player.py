@@ -1,4 +1,5 @@
 import threading
+import time
 from dataclasses import replace
 from itertools import pairwise
 
@@ -252,6 +253,28 @@ def test_state_and_diagnostics_go_on_at_any_speed(start, monkeypatch, real_time_
     for kind in ('state', 'diagnostics'):
         count = len(output.all(kind))
         wait_until(lambda k=kind, c=count: len(output.all(k)) >= c + 3, kind)
+
+
+class FakeTime:
+    """Time that only sleeping lets pass."""
+
+    now = 0.0
+
+    def monotonic(self):
+        return self.now
+
+    def sleep(self, seconds):
+        self.now += seconds
+        time.sleep(1e-5)
+
+
+def test_while_paused_the_clock_comes_ten_times_a_second(start, monkeypatch):
+    fake = FakeTime()
+    monkeypatch.setattr(player_module, 'time', fake)
+    player, output = start(start_paused=True)
+    wait_until(lambda: fake.now > 20.0, 'twenty seconds')
+    player.stop(0.0)
+    assert len(output.all('clock')) == pytest.approx(10.0 * fake.now, rel=0.02)
 
 
 @pytest.mark.parametrize('real_time_factor', [0.5, 1.0, 20.0])

@@ -86,13 +86,14 @@ def play_many(
     """Play the shots in `parts` and fill in their ends; see `simulate_many`."""
     finals, durations, counts = ends
     loss = step * table.mu_ball_surface * table.gravity
-    for shot in (shot for part in parts for shot in range(*part.indices(len(velocities)))):
-        state = new_state(table, at_rest, velocities[shot])
-        log = new_log(0, 0, wanted=False)
-        run(state, at_rest, table.world, step, loss, last_slice(until, step), log)
-        finals[shot] = state.x
-        durations[shot] = ended(state, at_rest, step, until)
-        counts[shot] = log.counts[0]
+    for part in parts:
+        for shot in range(*part.indices(len(velocities))):
+            state = new_state(table, at_rest, velocities[shot])
+            log = new_log(0, 0, wanted=False)
+            run(state, at_rest, table.world, step, loss, last_slice(until, step), log)
+            finals[shot] = state.x
+            durations[shot] = ended(state, at_rest, step, until)
+            counts[shot] = log.counts[0]
 
 
 def last_slice(until: float, step: float) -> int:
