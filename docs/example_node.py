@@ -1,4 +1,5 @@
 """A node that shoots when the balls rest, and says where the cue ball stopped."""
+
 import json
 import uuid
 

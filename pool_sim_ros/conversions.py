@@ -44,9 +44,7 @@ def to_json_string(fields: dict[str, object]) -> String:
     return String(data=json.dumps(fields, allow_nan=False))
 
 
-def to_poses(
-    frame_id: str, stamp: int, positions: np.ndarray, radii: Sequence[float]
-) -> PoseArray:
+def to_poses(frame_id: str, stamp: int, positions: np.ndarray, radii: Sequence[float]) -> PoseArray:
     """Return the balls' centres as poses.
 
     Parameters

@@ -136,7 +136,10 @@ def _parser() -> argparse.ArgumentParser:
         'where the balls stop with what the report printed.',
     )
     parser.add_argument(
-        '--speed', type=float, default=1.0, metavar='FACTOR',
+        '--speed',
+        type=float,
+        default=1.0,
+        metavar='FACTOR',
         help='how many times faster than real time; 0 = as fast as possible (default: %(default)g)',
     )
     return parser

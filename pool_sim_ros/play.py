@@ -60,7 +60,10 @@ def _parser() -> argparse.ArgumentParser:
         description='Start a simulator and a page in the browser to play on it; Ctrl-C ends both.',
     )
     parser.add_argument(
-        '--port', type=int, default=8080, metavar='N',
+        '--port',
+        type=int,
+        default=8080,
+        metavar='N',
         help='port of the page; 0 takes any that is free (default: %(default)s)',
     )
     return parser

@@ -70,9 +70,7 @@ class Player:
         Where to record; closed in the end.
     """
 
-    def __init__(
-        self, settings: Settings, output: Output, log: CommandLog | None = None
-    ) -> None:
+    def __init__(self, settings: Settings, output: Output, log: CommandLog | None = None) -> None:
         self.ready = threading.Event()
         """Set once the kernels are compiled and this was told."""
         self._simulation = Simulation(settings, log=log)

@@ -89,7 +89,10 @@ def _parser() -> ShotParser:
         'and "ros2 bag play" open.',
     )
     parser.add_argument(
-        '--out', type=Path, default=Path('shot.mcap'), metavar='FILE.mcap',
+        '--out',
+        type=Path,
+        default=Path('shot.mcap'),
+        metavar='FILE.mcap',
         help='file to write; one that is there is replaced (default: %(default)s)',
     )
     return parser

@@ -98,15 +98,20 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument('file', metavar='FILE', help='the log that sim_node wrote')
     parser.add_argument(
-        '--speed', type=_speed, default=1.0, metavar='FACTOR',
+        '--speed',
+        type=_speed,
+        default=1.0,
+        metavar='FACTOR',
         help='sim seconds per second; 0 = as fast as possible (default: %(default)g)',
     )
     parser.add_argument(
-        '--wait', action='store_true',
+        '--wait',
+        action='store_true',
         help='begin once somebody reads ball_poses, ball_velocities and collisions',
     )
     parser.add_argument(
-        '--digest', action='store_true',
+        '--digest',
+        action='store_true',
         help='show nothing, but print the SHA-256 of what would be sent on each topic',
     )
     return parser

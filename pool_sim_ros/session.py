@@ -106,9 +106,7 @@ class _Session:
         table = self._settings.table
         if positions.shape != (len(table.balls), 2):
             raise ValueError(f'positions must be {len(table.balls)} rows of two numbers')
-        check_layout(
-            positions, table.radii, table.length, table.width, table.labels, 'positions'
-        )
+        check_layout(positions, table.radii, table.length, table.width, table.labels, 'positions')
         self.playback.reset(positions)
 
     def _strike(self, shot: int | None, velocity: tuple[float, float]) -> None:

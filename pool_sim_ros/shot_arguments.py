@@ -18,15 +18,23 @@ class ShotParser(argparse.ArgumentParser):
         )
         self.add_argument('shot', nargs='?', type=int, help="one of the report's shots, 1 to 4")
         self.add_argument(
-            '--velocity', nargs=2, type=float, metavar=('VX', 'VY'),
+            '--velocity',
+            nargs=2,
+            type=float,
+            metavar=('VX', 'VY'),
             help='strike the cue ball where it lies, m/s',
         )
         self.add_argument(
-            '--node', default=interface.NODE_NAME, metavar='NAME',
+            '--node',
+            default=interface.NODE_NAME,
+            metavar='NAME',
             help='name of the simulator (default: %(default)s)',
         )
         self.add_argument(
-            '--timeout', type=float, default=10.0, metavar='S',
+            '--timeout',
+            type=float,
+            default=10.0,
+            metavar='S',
             help='give up after so many seconds without a sign of it (default: %(default)g)',
         )
 

@@ -171,9 +171,7 @@ class Simulation:
         self._layout_changed, self._placed = False, None
         if frame.started:
             response = self._response
-            self._log.strike(
-                frame.tick, self._settings_at_strike, response.shot, response.velocity
-            )
+            self._log.strike(frame.tick, self._settings_at_strike, response.shot, response.velocity)
 
     def _take(self, request: Request) -> tuple[Response, Job | None]:
         if request.id is not None:

@@ -3,8 +3,10 @@
 import numpy as np
 
 EVENT = np.dtype(
-    [(name, 'i8' if name in ('kind', 'a', 'b') else 'f8')
-     for name in ('t', 'kind', 'a', 'b', 'x', 'y', 'nx', 'ny', 'speed')]
+    [
+        (name, 'i8' if name in ('kind', 'a', 'b') else 'f8')
+        for name in ('t', 'kind', 'a', 'b', 'x', 'y', 'nx', 'ny', 'speed')
+    ]
 )
 
 

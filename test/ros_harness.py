@@ -109,7 +109,8 @@ class Observer:
         self.responses = []
         for topic in self.TOPICS:
             qos = QoSProfile(
-                depth=FRAMES_KEPT, durability=topic.qos.durability,
+                depth=FRAMES_KEPT,
+                durability=topic.qos.durability,
                 reliability=topic.qos.reliability,
             )
             self._subscriptions[topic.name] = self.node.create_subscription(
@@ -230,7 +231,10 @@ class Process:
         command = [module] if isinstance(module, Path) else ['-m', f'pool_sim_ros.{module}']
         self._popen = subprocess.Popen(
             [sys.executable, *command, *args],
-            stdout=stdout, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True,
+            stdout=stdout,
+            stderr=subprocess.PIPE,
+            stdin=subprocess.DEVNULL,
+            text=True,
             env=os.environ | {'PYTHONUNBUFFERED': '1', 'RCUTILS_LOGGING_USE_STDOUT': '0'},
         )
         self._texts = {'stdout': [], 'stderr': []}

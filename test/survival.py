@@ -1,7 +1,5 @@
 """Attack a node, and see whether it still plays as printed."""
 
-
-
 from pool_sim_ros import interface
 from pool_sim_ros.report.log import published_final_positions
 

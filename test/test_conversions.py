@@ -23,9 +23,7 @@ def test_times_are_exact_to_the_nanosecond(stamp):
 
 def test_poses_hold_the_positions_bit_for_bit_at_the_height_of_the_radius():
     positions = np.array([[0.1, 0.2], [1 / 3, 2 / 7]])
-    message = through_the_wire(
-        conversions.to_poses('table', 16_666_666, positions, [0.05, 0.03])
-    )
+    message = through_the_wire(conversions.to_poses('table', 16_666_666, positions, [0.05, 0.03]))
     assert message.header.frame_id == 'table'
     assert (message.header.stamp.sec, message.header.stamp.nanosec) == (0, 16_666_666)
     assert [p.position.z for p in message.poses] == [0.05, 0.03]

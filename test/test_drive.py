@@ -1,6 +1,5 @@
 """Driving the node: placing balls, diagnostics, several tables, record and replay over topics."""
 
-
 import hashlib
 
 import numpy as np
@@ -130,8 +129,10 @@ def test_diagnostics_tell_how_the_node_is_doing(ros):
     assert values['rejected commands'] == '1' and 'UNKNOWN_SHOT' in values['last rejection']
     assert 0.0 < float(values['compute time of the last shot (s)']) < 60.0
     values = placer.wait_for(
-        lambda v: v['achieved speed (sim s / s)'] != 'unknown'
-        and abs(float(v['achieved speed (sim s / s)']) - 4.0) < 0.5,
+        lambda v: (
+            v['achieved speed (sim s / s)'] != 'unknown'
+            and abs(float(v['achieved speed (sim s / s)']) - 4.0) < 0.5
+        ),
         'the speed',
     )
     assert float(values['worst frame lateness (ms)']) >= 0.0 and int(values['ticks behind']) >= 0
@@ -175,8 +176,9 @@ def test_the_rack_is_tight():
 
 
 def test_a_rack_is_broken_over_the_topics(ros):
-    with node_process('--ros-args', '--params-file', str(CONFIG / 'rack15.yaml'),
-                      '-p', 'real_time_factor:=20.0'):
+    with node_process(
+        '--ros-args', '--params-file', str(CONFIG / 'rack15.yaml'), '-p', 'real_time_factor:=20.0'
+    ):
         observer = Observer(ros).wait_for_match()
         table = table_from_json(observer.heard['table'][-1].data)
         done = observer.wait_for_phase(observer.ask(velocity=[-9.0, 0.3]), 'done')
@@ -192,8 +194,9 @@ def test_three_processes_under_other_names_have_no_topic_in_common(ros):
         [],
     ]
     processes = [
-        start_node('--ros-args', '-p', 'report_integrator:=event', '-p', 'real_time_factor:=10.0',
-                   *words)
+        start_node(
+            '--ros-args', '-p', 'report_integrator:=event', '-p', 'real_time_factor:=10.0', *words
+        )
         for words in arguments
     ]
     try:
@@ -251,8 +254,15 @@ class RawReader:
 def test_a_session_is_replayed_with_the_same_bytes_on_the_topics(ros, tmp_path):
     log = tmp_path / 'session.log'
     reader = RawReader(ros)
-    with node_process('--ros-args', '-p', f'record:={log}', '-p', 'real_time_factor:=10.0',
-                      '-p', 'report_integrator:=event') as process:
+    with node_process(
+        '--ros-args',
+        '-p',
+        f'record:={log}',
+        '-p',
+        'real_time_factor:=10.0',
+        '-p',
+        'report_integrator:=event',
+    ) as process:
         observer = Observer(ros).wait_for_match()
         ros.spin_until(reader.matched, 'the reader')
         for fields in ({'shot': 1}, {'velocity': [-3.3, 0.7]}, {'shot': 4}):
@@ -264,11 +274,14 @@ def test_a_session_is_replayed_with_the_same_bytes_on_the_topics(ros, tmp_path):
     recorded = reader.heard
 
     again = RawReader(ros, 'replayed')
-    with Process('replay', str(log), '--speed', '20', '--wait',
-                 '--ros-args', '-r', '__node:=replayed') as process:
+    with Process(
+        'replay', str(log), '--speed', '20', '--wait', '--ros-args', '-r', '__node:=replayed'
+    ) as process:
         ros.spin_until(
-            lambda: again.heard['ball_poses'][-1:] == recorded['ball_poses'][-1:]
-            and len(again.heard['collisions']) == wanted,
+            lambda: (
+                again.heard['ball_poses'][-1:] == recorded['ball_poses'][-1:]
+                and len(again.heard['collisions']) == wanted
+            ),
             'the last frame and all contacts',
         )
         assert process.wait() == 0

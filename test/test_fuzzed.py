@@ -160,7 +160,8 @@ def test_any_message_is_answered_and_ends_nothing(victim, messages):
 
 @pytest.mark.parametrize('name', sorted(PARAMETERS))
 @pytest.mark.parametrize(
-    'value', [float('nan'), float('inf'), -1.0, 0, 2**63 - 1, 'x' * 10_000, '', [], [1.5], True],
+    'value',
+    [float('nan'), float('inf'), -1.0, 0, 2**63 - 1, 'x' * 10_000, '', [], [1.5], True],
     ids=lambda value: repr(value)[:12],
 )
 def test_no_parameter_value_ends_anything(victim, name, value):
@@ -170,8 +171,11 @@ def test_no_parameter_value_ends_anything(victim, name, value):
     ros.spin_until(client.service_is_ready, 'the parameter service')
     spec = PARAMETERS[name]
     for new in (value, spec.default):
-        parameter = Parameter(name, value=new) if new != [] else Parameter(
-            name, Parameter.Type.DOUBLE_ARRAY, [])
+        parameter = (
+            Parameter(name, value=new)
+            if new != []
+            else Parameter(name, Parameter.Type.DOUBLE_ARRAY, [])
+        )
         request = SetParameters.Request(parameters=[parameter.to_parameter_msg()])
         future = client.call_async(request)
         ros.spin_until(future.done, 'an answer')

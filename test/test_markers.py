@@ -158,7 +158,9 @@ def test_over_the_topic_the_table_comes_once_and_what_moves_as_it_moves(ros):
         topic.type, topic.of(interface.NODE_NAME), late.append, topic.qos
     )
     ros.spin_until(
-        lambda: {'table', 'cushions', 'balls', 'labels'}
-        <= {m.ns for array in late for m in array.markers},
+        lambda: (
+            {'table', 'cushions', 'balls', 'labels'}
+            <= {m.ns for array in late for m in array.markers}
+        ),
         'what a late viewer is shown',
     )

@@ -49,8 +49,10 @@ def flood(observer, attacker, seconds, rate=5000):
                 attacker.send('cue_velocity', Twist(linear=Vector3(x=random.uniform(-5, 5))))
             else:
                 ids.append(uuid.uuid4().hex)
-                attacker.send('shot/request', String(
-                    data=json.dumps({'id': ids[-1], 'shot': random.randint(1, 5)})))
+                attacker.send(
+                    'shot/request',
+                    String(data=json.dumps({'id': ids[-1], 'shot': random.randint(1, 5)})),
+                )
         observer._ros.executor.spin_once(0.0)
     return ids
 
@@ -97,8 +99,11 @@ def test_a_reader_that_stops_reading(ros):
     with node_process(**FAST):
         observer = Observer(ros).wait_for_match()
         reader = subprocess.Popen(
-            [sys.executable, '-c', STALLED_READER], stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+            [sys.executable, '-c', STALLED_READER],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
         )
         try:
             assert reader.stderr.read(7) == 'matched'

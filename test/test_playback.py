@@ -156,8 +156,9 @@ def test_frames_do_not_change_afterwards():
     playback.reset(LAYOUT)
     play(playback, Glide(LAYOUT, (-1.0, 0.0), 0.1, [(0.02, 1)]))
     for frame, copy in zip(frames, copies, strict=True):
-        for now, then in zip((frame.positions, frame.velocities, frame.collisions), copy,
-                             strict=True):
+        for now, then in zip(
+            (frame.positions, frame.velocities, frame.collisions), copy, strict=True
+        ):
             assert np.array_equal(now, then)
 
 
@@ -165,7 +166,10 @@ def test_frames_do_not_change_afterwards():
     st.integers(1, 240),
     st.lists(
         st.one_of(
-            st.just('frame'), st.just('reset'), st.just('strike'), st.just('abandon'),
+            st.just('frame'),
+            st.just('reset'),
+            st.just('strike'),
+            st.just('abandon'),
             st.tuples(st.integers(1, 200), st.floats(0.0, 1.0)),
         ),
         max_size=30,

@@ -108,8 +108,13 @@ def test_a_reset_while_computing_answers_at_once_and_the_result_is_dropped(start
 
 def test_as_fast_as_possible_still_answers_in_between(start):
     for_hours = replace(
-        SETTINGS.table, mu_ball_surface=1e-4, mu_ball_ball=0.0, mu_ball_cushion=0.0,
-        e_cue_ball=1.0, e_ball_ball=1.0, e_ball_cushion=1.0,
+        SETTINGS.table,
+        mu_ball_surface=1e-4,
+        mu_ball_ball=0.0,
+        mu_ball_cushion=0.0,
+        e_cue_ball=1.0,
+        e_ball_ball=1.0,
+        e_ball_cushion=1.0,
     )
     player, output = start(real_time_factor=0.0, max_shot_duration=1e5, table=for_hours)
     player.request('{"velocity": [3, 1]}')

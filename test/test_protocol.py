@@ -143,7 +143,18 @@ def test_content_tells_requests_apart_but_not_their_spelling():
 def test_response_is_json_with_every_key():
     response = json.loads(Response(id='a', phase=Phase.REJECTED, code=Code.BUSY).to_json())
     assert list(response) == [
-        'id', 'phase', 'code', 'reason', 'shot', 'velocity', 'integrator', 't_start', 't_end',
-        'events', 'final_positions', 'final_positions_in', 'as_printed',
+        'id',
+        'phase',
+        'code',
+        'reason',
+        'shot',
+        'velocity',
+        'integrator',
+        't_start',
+        't_end',
+        'events',
+        'final_positions',
+        'final_positions_in',
+        'as_printed',
     ]
     assert (response['phase'], response['code'], response['t_end']) == ('rejected', 'BUSY', None)

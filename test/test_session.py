@@ -34,8 +34,9 @@ def record(path, settings, play):
 
 def done(output, response):
     wait_until(
-        lambda: any(r.id == response.id and r.phase is not Phase.ACCEPTED
-                    for r in output.all('response')),
+        lambda: any(
+            r.id == response.id and r.phase is not Phase.ACCEPTED for r in output.all('response')
+        ),
         'the end of the shot',
     )
 

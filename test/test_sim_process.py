@@ -38,9 +38,7 @@ class Recording:
             self.responses = observer.responses
             self.stamps = observer.stamps
             self.positions = [conversions.from_poses(m) for m in observer.heard['ball_poses']]
-            self.velocities = [
-                conversions.from_rows(m) for m in observer.heard['ball_velocities']
-            ]
+            self.velocities = [conversions.from_rows(m) for m in observer.heard['ball_velocities']]
             self.collisions = observer.collisions
 
     def frame_at(self, time):
@@ -153,8 +151,11 @@ def test_name_and_namespace_can_be_changed(ros):
 @pytest.mark.parametrize('computing', [False, True], ids=['at rest', 'computing'])
 def test_a_signal_ends_the_node_without_a_word(ros, number, computing):
     # A shot that takes hours to compute: to wait for its end would show.
-    parameters = {'time_slice': '0.0000001', 'table.mu_ball_surface': 0.0001,
-                  'max_shot_duration': 100000.0}
+    parameters = {
+        'time_slice': '0.0000001',
+        'table.mu_ball_surface': 0.0001,
+        'max_shot_duration': 100000.0,
+    }
     with node_process(**parameters) as process:
         if computing:
             observer = Observer(ros).wait_for_match()

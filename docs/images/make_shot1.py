@@ -31,8 +31,9 @@ def picture(table, positions, trails):
     image = Image.new('RGB', size, WOOD)
     draw = ImageDraw.Draw(image)
     for color, edge in ((CUSHION, 0.03), (CLOTH, 0.0)):
-        (left, bottom), (right, top) = place(-edge, -edge), place(
-            table.length + edge, table.width + edge
+        (left, bottom), (right, top) = (
+            place(-edge, -edge),
+            place(table.length + edge, table.width + edge),
         )
         draw.rectangle((left, top, right, bottom), fill=color)
     for ball, trail in zip(table.balls, trails, strict=True):

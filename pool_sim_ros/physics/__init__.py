@@ -1,8 +1,8 @@
 """The physics of a pool table: numpy and numba, nothing of ROS.
 
-    >>> from pool_sim_ros.physics import report_table, simulate
-    >>> shot = simulate(report_table(), (-4.0, 0.0))
-    >>> shot.final_positions, shot.duration, shot.events
+>>> from pool_sim_ros.physics import report_table, simulate
+>>> shot = simulate(report_table(), (-4.0, 0.0))
+>>> shot.final_positions, shot.duration, shot.events
 """
 
 from pool_sim_ros.physics.simulate import compile_kernels, simulate, simulate_many

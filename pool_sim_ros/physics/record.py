@@ -49,9 +49,7 @@ class Log(NamedTuple):
 
 def new_log(events: int, segments: int, wanted: bool = True) -> Log:
     """Return an empty log with room for so many events and segments."""
-    return Log(
-        np.empty(events, EVENT), np.empty(segments, SEGMENT), np.zeros(2, np.int64), wanted
-    )
+    return Log(np.empty(events, EVENT), np.empty(segments, SEGMENT), np.zeros(2, np.int64), wanted)
 
 
 def enlarged(log: Log) -> Log:

@@ -67,8 +67,11 @@ def draw_construction(collision: Example) -> Figure:
     _text(axes, 0.3 * b + 0.09 * h * tangent, '$h$')
     _text(axes, (b + foot) / 2 + 0.09 * h * along, '$e$')
     _angle(axes, (collision.impact_angle, collision.velocity_angle), 0.42 * h)
-    _text(axes, 0.34 * h * _direction(collision.velocity_angle - 0.45 * collision.offset_angle),
-          '$\\theta$')
+    _text(
+        axes,
+        0.34 * h * _direction(collision.velocity_angle - 0.45 * collision.offset_angle),
+        '$\\theta$',
+    )
     # The others begin at the y axis; there is room on its other side.
     for angle, radius, name in (
         (collision.impact_angle, 0.92, 'impact'),
@@ -114,9 +117,13 @@ def _arrow(
     axes: Axes, start: np.ndarray, end: np.ndarray, style: str, linewidth=0.8, shrink=False
 ) -> None:
     axes.annotate(
-        '', end, start,
+        '',
+        end,
+        start,
         arrowprops={
-            'arrowstyle': style, 'linewidth': linewidth, 'shrinkA': 4 if shrink else 0,
+            'arrowstyle': style,
+            'linewidth': linewidth,
+            'shrinkA': 4 if shrink else 0,
             'shrinkB': 0,
         },
     )
@@ -129,9 +136,7 @@ def _text(axes: Axes, place: np.ndarray, text: str) -> None:
 def _angle(axes: Axes, angles: tuple[float, float], radius: float) -> None:
     """An arc around the origin between two directions in rad from the y axis towards x."""
     start, end = (90.0 - math.degrees(angle) for angle in reversed(angles))
-    axes.add_patch(
-        Arc((0.0, 0.0), 2 * radius, 2 * radius, theta1=start, theta2=end, linewidth=0.8)
-    )
+    axes.add_patch(Arc((0.0, 0.0), 2 * radius, 2 * radius, theta1=start, theta2=end, linewidth=0.8))
 
 
 def _right_angle(

@@ -161,21 +161,32 @@ def _parser() -> argparse.ArgumentParser:
         epilog="Needs no ROS, but the extra 'report': pip install 'pool_sim_ros[report]'.",
     )
     parser.add_argument(
-        '--out', type=Path, default=Path('report'), metavar='FOLDER',
+        '--out',
+        type=Path,
+        default=Path('report'),
+        metavar='FOLDER',
         help='where to write; files of the same names are replaced (default: ./%(default)s)',
     )
     parser.add_argument(
-        '--shots', type=int, nargs='+', choices=SHOT_NUMBERS, default=SHOT_NUMBERS, metavar='N',
+        '--shots',
+        type=int,
+        nargs='+',
+        choices=SHOT_NUMBERS,
+        default=SHOT_NUMBERS,
+        metavar='N',
         help='only these of the shots 1 to 4',
     )
     parser.add_argument(
-        '--integrator', choices=INTEGRATORS,
+        '--integrator',
+        choices=INTEGRATORS,
         help="time_slice: the report's, which ends where it printed; event: the exact one "
         "(default: the table file's report_integrator, or time_slice)",
     )
     parser.add_argument(
-        '--table', type=Path, metavar='FILE',
-        help="play on another table: a parameter file of sim_node, like config/report.yaml",
+        '--table',
+        type=Path,
+        metavar='FILE',
+        help='play on another table: a parameter file of sim_node, like config/report.yaml',
     )
     parser.add_argument(
         '--no-videos', dest='videos', action='store_false', help='make no films: they take longest'

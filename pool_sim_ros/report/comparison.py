@@ -45,9 +45,7 @@ class Comparison:
     with_coulomb: Trajectory
 
 
-def compare(
-    table: Table, number: int, printed: Mapping[str, tuple[float, float]]
-) -> Comparison:
+def compare(table: Table, number: int, printed: Mapping[str, tuple[float, float]]) -> Comparison:
     """Compute a shot of the report in all ways; `printed` is label -> (x, y) in inches."""
     velocity = cue_velocity(number, table)
 

@@ -70,7 +70,8 @@ def _exact(given: Table, comparisons: Sequence[Comparison]) -> str:
         exact_total=np.size(equal),
         exact_positions=table(
             ['Ball', *(f'Shot {comparison.number}' for comparison in comparisons)],
-            rows, 'Exact end positions [x, y], inches.',
+            rows,
+            'Exact end positions [x, y], inches.',
         ),
         convergence=table(
             ['Shot', *(Cell(f'{short(time_slice)} s') for time_slice in SLICES)],
@@ -106,7 +107,8 @@ def _rounding_branch(section: str, given: Table, comparison: Comparison) -> str:
         section=section,
         nearest=given.labels[nearest_ball(given)],
         branches=table(
-            ['Ball', *slices, 'Exact', 'Printed'], rows,
+            ['Ball', *slices, 'Exact', 'Printed'],
+            rows,
             'End positions [x, y] of the balls that move in shot 4, by slice, inches.',
         ),
     )
@@ -119,7 +121,9 @@ def _listing(section: str, given: Table, comparisons: Sequence[Comparison]) -> s
             *(
                 _greatest(given, final_inches(trajectory), comparison.printed)
                 for trajectory in (
-                    comparison.sliced[REPORT_SLICE], comparison.with_e_cn, comparison.with_coulomb,
+                    comparison.sliced[REPORT_SLICE],
+                    comparison.with_e_cn,
+                    comparison.with_coulomb,
                 )
             ),
         ]
@@ -133,7 +137,8 @@ def _listing(section: str, given: Table, comparisons: Sequence[Comparison]) -> s
         time_slice=short(REPORT_SLICE),
         changes=table(
             ['Shot', 'As it is', f'Restitution {STATED_E_CUE_BALL:g}', 'Coulomb friction'],
-            rows, 'Greatest difference from the print (and its ball), inches.',
+            rows,
+            'Greatest difference from the print (and its ball), inches.',
         ),
     )
 

@@ -64,13 +64,16 @@ class TablePicture:
         self.axes.set_axis_off()
         self.axes.set_aspect('equal')
         margin = MARGIN * max(table.length, table.width)
-        self.axes.set(
-            xlim=(-margin, table.length + margin), ylim=(-margin, table.width + margin)
-        )
+        self.axes.set(xlim=(-margin, table.length + margin), ylim=(-margin, table.width + margin))
         self.axes.add_patch(
             Rectangle(
-                (0.0, 0.0), table.length, table.width, facecolor=CLOTH, edgecolor='black',
-                linewidth=0.8, zorder=CLOTH_LEVEL,
+                (0.0, 0.0),
+                table.length,
+                table.width,
+                facecolor=CLOTH,
+                edgecolor='black',
+                linewidth=0.8,
+                zorder=CLOTH_LEVEL,
             )
         )
         self.balls: list[Artist] = []

@@ -38,6 +38,7 @@ def table(
     text_columns: Collection[int] = (),
 ) -> str:
     """Return a table; its cells and titles are text, or HTML where they are `Cell`."""
+
     def line(tag: str, cells: Sequence[str]) -> str:
         return ''.join(_cell(tag, cell, i in text_columns) for i, cell in enumerate(cells))
 

@@ -85,8 +85,10 @@ def _part_1(content: Content) -> str:
     for law in ('coulomb', 'report'):
         result = collision.collide(law)
         in_frame = (
-            result.normal_before, result.tangential_before,
-            result.normal_after, result.tangential_after,
+            result.normal_before,
+            result.tangential_before,
+            result.normal_after,
+            result.tangential_after,
         )
         ends = ('a', result.velocity_a), ('b', result.velocity_b)
         for index, (name, velocity) in enumerate(ends):
@@ -95,11 +97,16 @@ def _part_1(content: Content) -> str:
     return fill(
         'part_1.html',
         setup_picture=figure(
-            content.pictures, 'images/Part_1_setup.png', 'Figure 1: set-up',
-            'Ball a moves past the centre of ball b at the offset e.', 'set-up',
+            content.pictures,
+            'images/Part_1_setup.png',
+            'Figure 1: set-up',
+            'Ball a moves past the centre of ball b at the offset e.',
+            'set-up',
         ),
         construction_picture=figure(
-            content.pictures, 'images/Part_1_construction.png', 'Figure 2: construction lines',
+            content.pictures,
+            'images/Part_1_construction.png',
+            'Figure 2: construction lines',
             'The balls at impact, with the line of centres n, the tangent t and their angles.',
             'set-up',
         ),
@@ -116,7 +123,9 @@ def _part_1(content: Content) -> str:
         theta_impact=f'{math.degrees(collision.impact_angle):.3f}',
         outcome=table(
             ['Law', 'Ball', 'vₙ before', 'vₜ before', 'vₙ after', 'vₜ after', '[x, y] after'],
-            rows, 'Velocities of the example, m/s; t points to the left of n.', (1,),
+            rows,
+            'Velocities of the example, m/s; t points to the left of n.',
+            (1,),
         ),
     )
 
@@ -156,12 +165,15 @@ def _part_2(content: Content) -> str:
         'part_2.html',
         ball_count=len(given.balls),
         layout_picture=figure(
-            content.pictures, 'images/Table_layout.png', f'Figure {LAYOUT_FIGURE}: the table',
+            content.pictures,
+            'images/Table_layout.png',
+            f'Figure {LAYOUT_FIGURE}: the table',
             'The table from above with all balls where they start.',
         ),
         constants=table(['Constant', 'Value'], constants, 'The table.', (1,)),
         balls=table(
-            ['Ball', 'Start, in', 'Start, m', 'Radius, in', 'Mass, g'], balls,
+            ['Ball', 'Start, in', 'Start, m', 'Radius, in', 'Mass, g'],
+            balls,
             'Table 1: the balls and where they start, [x, y].',
         ),
         deceleration=f'{given.deceleration:g}',
@@ -191,12 +203,14 @@ def _shot(content: Content, shot: PlayedShot) -> str:
         ball_contacts=int((kinds == BALL_BALL).sum()),
         cushion_contacts=int((kinds == CUSHION).sum()),
         start_picture=figure(
-            content.pictures, f'images/Simulation_{shot.number}_start.png',
+            content.pictures,
+            f'images/Simulation_{shot.number}_start.png',
             f'Figure {first_figure}: simulation {shot.number}, start',
             f'The table before simulation {shot.number}.',
         ),
         end_picture=figure(
-            content.pictures, f'images/Simulation_{shot.number}_end.png',
+            content.pictures,
+            f'images/Simulation_{shot.number}_end.png',
             f'Figure {first_figure + 1}: simulation {shot.number}, end. Dashed circles: where the '
             'balls that moved started; lines: their paths',
             f'The table after simulation {shot.number}, with the path of each ball that moved.',

@@ -50,15 +50,22 @@ def draw_paths(axes: Axes, trajectory: Trajectory) -> None:
 def _draw_start(axes: Axes, ball: Ball, label_place: np.ndarray | None) -> None:
     axes.add_patch(
         Circle(
-            ball.position, ball.radius, facecolor='none', edgecolor='black', linewidth=0.6,
-            linestyle=(0, (3, 2)), zorder=PATH_LEVEL,
+            ball.position,
+            ball.radius,
+            facecolor='none',
+            edgecolor='black',
+            linewidth=0.6,
+            linestyle=(0, (3, 2)),
+            zorder=PATH_LEVEL,
         )
     )
     if label_place is not None:
         axes.add_patch(
             PathPatch(
-                label_outline(ball.label, 2 * LABEL_ROOM * ball.radius), facecolor='black',
-                linewidth=0.0, transform=Affine2D().translate(*label_place) + axes.transData,
+                label_outline(ball.label, 2 * LABEL_ROOM * ball.radius),
+                facecolor='black',
+                linewidth=0.0,
+                transform=Affine2D().translate(*label_place) + axes.transData,
                 zorder=PATH_LEVEL,
             )
         )
@@ -106,8 +113,14 @@ def _draw_line(axes: Axes, ball: Ball, corners: np.ndarray, dashes: tuple) -> No
     axes.add_line(Line2D(x, y, color=_edge_color(ball), linewidth=WIDTH + 2 * EDGE, **style))
     axes.add_line(
         Line2D(
-            x, y, color=ball.color, linewidth=WIDTH, linestyle=dashes, dash_capstyle='butt',
-            dash_joinstyle='round', **style,
+            x,
+            y,
+            color=ball.color,
+            linewidth=WIDTH,
+            linestyle=dashes,
+            dash_capstyle='butt',
+            dash_joinstyle='round',
+            **style,
         )
     )
 
@@ -121,8 +134,14 @@ def _draw_arrows(axes: Axes, ball: Ball, corners: np.ndarray) -> None:
         angle = math.degrees(math.atan2(step[1], step[0]))
         axes.add_line(
             Line2D(
-                [x], [y], marker=(3, 0, angle - 90.0), markersize=6.0, markerfacecolor=ball.color,
-                markeredgecolor=_edge_color(ball), markeredgewidth=EDGE, zorder=PATH_LEVEL,
+                [x],
+                [y],
+                marker=(3, 0, angle - 90.0),
+                markersize=6.0,
+                markerfacecolor=ball.color,
+                markeredgecolor=_edge_color(ball),
+                markeredgewidth=EDGE,
+                zorder=PATH_LEVEL,
             )
         )
 

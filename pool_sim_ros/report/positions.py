@@ -10,9 +10,16 @@ from pool_sim_ros.report.log import INCH
 from pool_sim_ros.report.played import PlayedShot
 
 COLUMNS = (
-    'shot', 'ball',
-    'start_x_in', 'start_y_in', 'end_x_in', 'end_y_in',
-    'start_x_m', 'start_y_m', 'end_x_m', 'end_y_m',
+    'shot',
+    'ball',
+    'start_x_in',
+    'start_y_in',
+    'end_x_in',
+    'end_y_in',
+    'start_x_m',
+    'start_y_m',
+    'end_x_m',
+    'end_y_m',
 )
 
 

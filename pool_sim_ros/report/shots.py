@@ -60,7 +60,7 @@ def cue_velocity(shot: int, table: Table) -> tuple[float, float]:
         angle = attitude_to_nearest(table)
         return math.cos(angle) * _SPEED_TO_NEAREST, math.sin(angle) * _SPEED_TO_NEAREST
     if shot not in _SPEEDS_AND_ANGLES:
-        raise ValueError(f'shot: {shot!r} is not one of the report\'s, 1 to 4')
+        raise ValueError(f"shot: {shot!r} is not one of the report's, 1 to 4")
     speed, degrees = _SPEEDS_AND_ANGLES[shot]
     angle = math.radians(degrees)
     return -math.cos(angle) * speed, math.sin(angle) * speed

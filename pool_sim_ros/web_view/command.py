@@ -73,16 +73,23 @@ def _parser() -> argparse.ArgumentParser:
         epilog='ROS arguments, like --ros-args -r __ns:=/NS, may follow.',
     )
     parser.add_argument(
-        '--host', default=HOST, metavar='ADDRESS',
+        '--host',
+        default=HOST,
+        metavar='ADDRESS',
         help='address to listen at; 0.0.0.0 lets everybody on the network watch and play '
         '(default: %(default)s, this machine only)',
     )
     parser.add_argument(
-        '--port', type=_port, default=PORT, metavar='N',
+        '--port',
+        type=_port,
+        default=PORT,
+        metavar='N',
         help='port to listen at; 0 takes any that is free (default: %(default)s)',
     )
     parser.add_argument(
-        '--node', default=interface.NODE_NAME, metavar='NAME',
+        '--node',
+        default=interface.NODE_NAME,
+        metavar='NAME',
         help='name of the simulator (default: %(default)s)',
     )
     return parser

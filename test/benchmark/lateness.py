@@ -1,7 +1,7 @@
 """How late frames are, measured in a process of its own; written as JSON when it is interrupted.
 
-    python lateness.py node [ROS arguments]     the node's own frames
-    python lateness.py sleep                    a loop that only sleeps until the same times
+python lateness.py node [ROS arguments]     the node's own frames
+python lateness.py sleep                    a loop that only sleeps until the same times
 """
 
 import json

@@ -164,9 +164,7 @@ def test_strike_to_first_frame(ros, tell):
             ros.spin_until(lambda s=seen: len(observer.heard['ball_velocities']) > s, 'a frame')
             start = time.monotonic()
             observer.strike(Twist(linear=Vector3(x=-3.0, y=0.4)))
-            ros.spin_until(
-                lambda: any(observer.heard['ball_velocities'][-1].data), 'motion'
-            )
+            ros.spin_until(lambda: any(observer.heard['ball_velocities'][-1].data), 'motion')
             delays.append(time.monotonic() - start)
             observer.call(interface.RESET)
             ros.spin_until(lambda: not any(observer.heard['ball_velocities'][-1].data), 'rest')

@@ -106,8 +106,9 @@ def test_every_link_on_the_page_leads_somewhere(made):
 
 def test_the_combined_film_of_one_shot_is_its_film(made):
     folder, _ = made
-    alone, combined = (frame_times(folder / f'videos/{name}.mp4')
-                       for name in ('collision_3', 'combinedCollisions'))
+    alone, combined = (
+        frame_times(folder / f'videos/{name}.mp4') for name in ('collision_3', 'combinedCollisions')
+    )
     # Shot 3 ends after 1.41 s: 85 frames until all rest, the one at t = 0, and one second.
     assert len(alone) == 86 + 60
     assert combined == alone

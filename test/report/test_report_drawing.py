@@ -150,8 +150,10 @@ def test_the_same_picture_is_the_same_bytes(settings, shots, tmp_path):
 
 @pytest.mark.parametrize('radii', [(0.05, 0.05), (0.02, 0.06), (0.06, 0.02)])
 def test_construction_lines_are_those_of_equation_4(settings, radii):
-    a, b = (Ball(label, 0.1, radius, (0.5 + i, 0.5)) for i, (label, radius) in
-            enumerate(zip('ab', radii, strict=True)))
+    a, b = (
+        Ball(label, 0.1, radius, (0.5 + i, 0.5))
+        for i, (label, radius) in enumerate(zip('ab', radii, strict=True))
+    )
     collision = example(replace(settings.table, balls=[a, b]))
     assert collision.impact_angle == pytest.approx(
         math.pi / 2 - collision.collide('coulomb').impact_angle

@@ -121,8 +121,10 @@ def test_films_go_into_a_folder_with_an_awkward_name(shots, tmp_path):
     folder = tmp_path / "it's 100 % \\ ünïque, [1]"
     film = write_film(folder, shots[3], (128, 72))
     join_films(folder, [film, film])
-    once, twice = (len(frame_times(folder / f'videos/{name}.mp4'))
-                   for name in ('collision_3', 'combinedCollisions'))
+    once, twice = (
+        len(frame_times(folder / f'videos/{name}.mp4'))
+        for name in ('collision_3', 'combinedCollisions')
+    )
     assert twice == 2 * once
 
 
@@ -133,8 +135,9 @@ def test_ffmpeg_says_what_is_wrong_in_one_line(tmp_path):
 
 def test_a_full_disk_is_told_when_ffmpeg_meets_it(shots, tmp_path, monkeypatch):
     fake = tmp_path / 'ffmpeg'
-    fake.write_text('#!/bin/sh\necho "av_interleaved_write_frame(): No space left on device" >&2\n'
-                    'exit 1\n')
+    fake.write_text(
+        '#!/bin/sh\necho "av_interleaved_write_frame(): No space left on device" >&2\nexit 1\n'
+    )
     fake.chmod(0o755)
     monkeypatch.setattr('pool_sim_ros.report.encoder.find_ffmpeg', lambda: str(fake))
     with pytest.raises(OutputError) as caught:

@@ -92,8 +92,11 @@ def test_the_exact_positions_are_marked_where_they_differ_from_the_print(page, s
 
 
 def test_slicing_is_compared_with_the_exact_result(page, settings, shots):
-    (head,) = (rows[0] for caption, rows in page.tables.items() if 'by slice' in caption
-               and 'Greatest' in caption)
+    (head,) = (
+        rows[0]
+        for caption, rows in page.tables.items()
+        if 'by slice' in caption and 'Greatest' in caption
+    )
     assert head == ['Shot', '10−4 s', '10−5 s', '2 · 10−6 s', '10−6 s']
     for row in page.table('from the exact result'):
         shot = shots[int(row[0])]
@@ -134,8 +137,10 @@ def test_the_example_of_part_1_is_computed(page):
         assert numbers(cells[-1]) == pytest.approx(tuple(after), abs=5.1e-5)
         index = 'ab'.index(ball)
         parts = (
-            result.normal_before, result.tangential_before,
-            result.normal_after, result.tangential_after,
+            result.normal_before,
+            result.tangential_before,
+            result.normal_after,
+            result.tangential_after,
         )
         assert [numbers(cell)[0] for cell in cells[:-1]] == pytest.approx(
             [part[index] for part in parts], abs=5.1e-5
@@ -148,7 +153,8 @@ def test_every_picture_is_in_the_page_and_described(page):
     assert all(len(description) > 20 for _, description in page.pictures)
     files = [link for link in page.links if link.startswith('images/')]
     assert [name for name in files if 'Simulation' in name] == [
-        f'images/Simulation_{number}_{when}.png' for number in range(1, 5)
+        f'images/Simulation_{number}_{when}.png'
+        for number in range(1, 5)
         for when in ('start', 'end')
     ]
 
@@ -222,8 +228,12 @@ def test_numbers_have_no_minus_before_nothing(value, text):
 @pytest.mark.parametrize(
     ('value', 'text'),
     [
-        (0.0, '0'), (0.25, '0.25'), (1e-6, '10<sup>−6</sup>'), (2e-6, '2 · 10<sup>−6</sup>'),
-        (1.25e-5, '1.25 · 10<sup>−5</sup>'), (3e7, '3 · 10<sup>7</sup>'),
+        (0.0, '0'),
+        (0.25, '0.25'),
+        (1e-6, '10<sup>−6</sup>'),
+        (2e-6, '2 · 10<sup>−6</sup>'),
+        (1.25e-5, '1.25 · 10<sup>−5</sup>'),
+        (3e7, '3 · 10<sup>7</sup>'),
     ],
 )
 def test_small_numbers_are_powers_of_ten(value, text):

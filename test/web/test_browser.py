@@ -23,8 +23,13 @@ TABLE = report_table()
 DESKTOP = {'width': 1280, 'height': 800}
 PHONE = {'width': 390, 'height': 844}
 SWITCHES = [
-    '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
-    '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    '--no-sandbox',
+    '--disable-gpu',
+    '--disable-quic',
+    '--no-first-run',
+    '--disable-background-networking',
+    '--disable-component-update',
+    '--disable-sync',
 ]
 
 
@@ -75,8 +80,10 @@ class Page:
         self.page.mouse.move(*self.pixel(*ball))
         self.page.mouse.down()
         self.page.mouse.move(*self.pixel(ball[0] + x, ball[1] + y), steps=5)
-        self.wait('page.prediction && page.prediction.velocity[0] === page.aim.velocity[0]'
-                  ' && page.prediction.velocity[1] === page.aim.velocity[1]')
+        self.wait(
+            'page.prediction && page.prediction.velocity[0] === page.aim.velocity[0]'
+            ' && page.prediction.velocity[1] === page.aim.velocity[1]'
+        )
         return self.get('page.prediction')
 
     def record(self):
@@ -189,7 +196,10 @@ def test_the_keys_alone_do_everything(site, show):
     page.start_over()
     page.press('ArrowUp', 'ArrowLeft', 'Shift+ArrowRight', 'ArrowDown')
     assert page.get('[page.aim.active, page.aim.direction, page.aim.speed]') == [
-        True, pytest.approx(-179.1), pytest.approx(3.0)]
+        True,
+        pytest.approx(-179.1),
+        pytest.approx(3.0),
+    ]
     page.wait('page.prediction')
     page.press('Enter')
     page.wait('page.state.moving')

@@ -15,9 +15,9 @@ TABLE = report_table()
 @pytest.mark.parametrize('velocity', [(-4.0, 0.0), (-2.4, 0.7), (3.0, -1.0), (-9.0, 1.3)])
 def test_every_ball_that_moves_keeps_to_its_path(velocity):
     shot = simulate(TABLE, velocity)
-    paths = {path['ball']: path['points'] for path in predict(TABLE, TABLE.positions, velocity)[
-        'paths'
-    ]}
+    paths = {
+        path['ball']: path['points'] for path in predict(TABLE, TABLE.positions, velocity)['paths']
+    }
     for ball, places in enumerate(
         shot.positions(np.linspace(0.0, shot.duration, 500)).transpose(1, 0, 2)
     ):

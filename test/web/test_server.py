@@ -55,8 +55,12 @@ def get(address, path, **headers):
 
 @pytest.mark.parametrize(
     ('path', 'type_'),
-    [('/', 'text/html'), ('/static/main.js', 'javascript'), ('/static/style.css', 'text/css'),
-     ('/static/icon.svg', 'image/svg')],
+    [
+        ('/', 'text/html'),
+        ('/static/main.js', 'javascript'),
+        ('/static/style.css', 'text/css'),
+        ('/static/icon.svg', 'image/svg'),
+    ],
 )
 def test_the_page_is_served_and_may_load_nothing_from_elsewhere(alone, path, type_):
     status, headers, text = get(alone.address, path)
@@ -65,8 +69,16 @@ def test_the_page_is_served_and_may_load_nothing_from_elsewhere(alone, path, typ
     assert "default-src 'self'" in headers['Content-Security-Policy']
 
 
-@pytest.mark.parametrize('path', ['/nothing', '/static/../server.py', '/static/%2e%2e/server.py',
-                                  '/static//etc/passwd', '/static/'])
+@pytest.mark.parametrize(
+    'path',
+    [
+        '/nothing',
+        '/static/../server.py',
+        '/static/%2e%2e/server.py',
+        '/static//etc/passwd',
+        '/static/',
+    ],
+)
 def test_nothing_else_is_served(alone, path):
     assert get(alone.address, path)[0] in (403, 404)
 
