@@ -31,11 +31,11 @@ help:
 	@echo 'The first run downloads some hundred MB. PYTHON=python3.12 chooses the interpreter (3.10 or newer).'
 
 demo: $(INSTALLED)
-	@$(PY) -m pool_sim_ros.demo
+	@$(PY) -m pool_sim_ros.cli.demo
 	@echo 'Now play on it yourself, with the mouse: make play'
 
 play: $(INSTALLED)
-	@$(PY) -m pool_sim_ros.play
+	@$(PY) -m pool_sim_ros.cli.play
 
 # numba's cache does not notice an edit in a module that a kernel imports.
 test: $(INSTALLED)

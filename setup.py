@@ -11,12 +11,12 @@ SUMMARY = 'A ROS 2 simulation node for a pool table, and the exact billiards eng
 VERSION = re.search("__version__ = '(.*)'", Path(NAME, '__init__.py').read_text())[1]
 
 COMMANDS = [
-    'sim_node = pool_sim_ros.sim_node:main',
-    'shot = pool_sim_ros.shot:main',
-    'replay = pool_sim_ros.replay:main',
+    'sim_node = pool_sim_ros.ros.sim_node:main',
+    'shot = pool_sim_ros.cli.shot:main',
+    'replay = pool_sim_ros.cli.replay:main',
     'report = pool_sim_ros.report.command:main',
     'web_view = pool_sim_ros.web_view.command:main',
-    'record_shot = pool_sim_ros.record_shot:main',
+    'record_shot = pool_sim_ros.cli.record_shot:main',
 ]
 
 # Only names that start with ros-jazzy- are bound to Jazzy: without it they are newer distributions.

@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent), str(HERE / 'physics')]
+sys.path[:0] = [str(HERE.parent), str(HERE), str(HERE / 'support')]
 
 import numpy as np  # noqa: E402
 from tables import LAWS, kinetic_energy, worst_overlap  # noqa: E402
@@ -130,10 +130,10 @@ def first_endless(chunk: Chunk) -> str:
     """Return the name of the shot that takes longer than `ENDLESS_SHOT`, by playing each alone."""
     for k in range(len(chunk.velocities)):
         one = chunk.velocities[k : k + 1]
-        player = threading.Thread(target=simulate_many, args=(chunk.table, one), daemon=True)
-        player.start()
-        player.join(ENDLESS_SHOT)
-        if player.is_alive():
+        runner = threading.Thread(target=simulate_many, args=(chunk.table, one), daemon=True)
+        runner.start()
+        runner.join(ENDLESS_SHOT)
+        if runner.is_alive():
             return chunk.name(k)
     return f'{chunk.name(0)}, or one of the {len(chunk.velocities) - 1} after it'
 

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import pytest
 from ros_harness import node_process
 
-from pool_sim_ros import interface
+from pool_sim_ros.ros import interface
 
 PROJECT = Path(__file__).parents[1]
 EXAMPLE = PROJECT / 'docs' / 'example_node.py'

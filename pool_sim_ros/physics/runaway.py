@@ -6,7 +6,7 @@ other loss, the balls then meet ever faster, infinitely often in finite time.
 
 import numpy as np
 
-from pool_sim_ros.physics.kernel import inlined
+from pool_sim_ros.physics.jit import inlined
 
 GAIN = 100.0
 """A shot is given up when one ball has this many times the energy that all had at first."""

@@ -8,12 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from pool_sim_ros.physics.checks import number, numbers
-from pool_sim_ros.physics.layout import check_layout
-from pool_sim_ros.physics.motion import BALL, World
-
-INCH = 0.0254
-"""One inch in metres."""
+from pool_sim_ros.physics.motion.disc import BALL, World
+from pool_sim_ros.physics.validation import check_layout, number, numbers
 
 BALL_FRICTION_LAWS = ('report', 'coulomb')
 
@@ -24,7 +20,7 @@ GRAVITIES = (1e-6, 1e6)
 MAX_FRICTION = 1e3
 MIN_DECELERATION = 1e-9
 """Ranges in SI units, far beyond any table: within them no calculation here overflows, and a
-rounding error of a place stays well below `layout.OVERLAP`."""
+rounding error of a place stays well below `validation.OVERLAP`."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +132,7 @@ class Table:
                 "'coulomb'"
             )
         _store(self, 'balls', _balls(self.balls))
-        check_layout(self.positions, self.radii, self.length, self.width, self.labels, 'balls')
+        check_layout(self, self.positions, 'balls')
 
     @cached_property
     def labels(self) -> tuple[str, ...]:
@@ -194,35 +190,6 @@ class Table:
         records['touched'] = -np.inf
         records.flags.writeable = False
         return records
-
-
-def report_table() -> Table:
-    """Return the report's table: its Table 1 and the constants of Listings 2 and 3."""
-    rows = (
-        ('C', 200, (66.00, 22.00), (255, 255, 255)),
-        ('1', 160, (40.08, 21.23), (255, 255, 0)),
-        ('2', 160, (17.52, 37.29), (0, 0, 255)),
-        ('3', 160, (12.53, 2.75), (255, 0, 0)),
-        ('4', 160, (10.47, 25.10), (144, 0, 255)),
-        ('5', 160, (27.32, 4.87), (255, 144, 0)),
-        ('6', 160, (16.25, 13.80), (0, 255, 0)),
-        ('7', 160, (7.60, 21.49), (163, 166, 27)),
-        ('8', 160, (10.81, 9.21), (0, 0, 0)),
-        ('9', 160, (26.19, 21.84), (138, 92, 51)),
-        ('10', 160, (19.78, 26.81), (0, 0, 144)),
-    )
-    balls = tuple(
-        Ball(
-            label=label,
-            mass=grams / 1000,
-            radius=2.25 * INCH,
-            position=(x * INCH, y * INCH),
-            color=tuple(level / 255 for level in rgb),
-            is_cue=label == 'C',
-        )
-        for label, grams, (x, y), rgb in rows
-    )
-    return Table(length=88 * INCH, width=44 * INCH, balls=balls)
 
 
 def _store(instance: object, name: str, value: object) -> None:

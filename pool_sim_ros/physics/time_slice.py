@@ -13,14 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pool_sim_ros.physics.contact import (
+from pool_sim_ros.physics.contacts.discs import (
     coulomb_impulse,
     report_friction,
     restitution,
     sign,
 )
-from pool_sim_ros.physics.kernel import kernel
-from pool_sim_ros.physics.record import (
+from pool_sim_ros.physics.jit import kernel
+from pool_sim_ros.physics.runaway import most_energy, runs_away
+from pool_sim_ros.physics.state import (
     BALL_BALL,
     CUSHION,
     STOPPED,
@@ -30,7 +31,6 @@ from pool_sim_ros.physics.record import (
     log_segment,
     new_log,
 )
-from pool_sim_ros.physics.runaway import most_energy, runs_away
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.trajectory import Trajectory
 

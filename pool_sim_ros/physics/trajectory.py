@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pool_sim_ros.physics.kernel import kernel
+from pool_sim_ros.physics.jit import kernel
 from pool_sim_ros.physics.table import Table
 
 
@@ -68,6 +68,25 @@ class Trajectory:
     def velocities(self, times: ArrayLike) -> np.ndarray:
         """Return how fast the balls move, in m/s; as `positions`. At an event: just after it."""
         return self._look_up(times, 1)
+
+    def path(self, ball: int) -> np.ndarray:
+        """Return the path of one ball, from its start to its end.
+
+        Parameters
+        ----------
+        ball : int
+            Its index.
+
+        Returns
+        -------
+        ndarray of shape (k, 2)
+            m; no point twice in a row, so that a ball that never moves has one.
+        """
+        segments = self.segments[self.segments['ball'] == ball]
+        corners = np.column_stack([segments['x'], segments['y']])
+        corners = np.vstack([corners, self.final_positions[ball]])
+        new = np.any(np.diff(corners, axis=0) != 0.0, axis=1)
+        return corners[np.concatenate([[True], new])]
 
     def _look_up(self, times: ArrayLike, what: int) -> np.ndarray:
         asked = np.asarray(times, dtype=float)

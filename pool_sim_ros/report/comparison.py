@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pool_sim_ros.physics import Table, Trajectory, simulate
-from pool_sim_ros.report.log import INCH
-from pool_sim_ros.report.shots import cue_velocity
+from pool_sim_ros.me212.shots import cue_velocity
+from pool_sim_ros.physics import INCH, Table, Trajectory, simulate
 
 SLICES = (1e-4, 1e-5, 2e-6, 1e-6)
 """Slices to compare, s; the last is the report's."""

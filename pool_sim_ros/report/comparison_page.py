@@ -7,8 +7,8 @@ from itertools import count
 
 import numpy as np
 
-from pool_sim_ros.physics import Table
-from pool_sim_ros.physics.record import STOPPED
+from pool_sim_ros.me212.shots import nearest_ball
+from pool_sim_ros.physics import EventKind, Table
 from pool_sim_ros.report.comparison import (
     SLICES,
     STATED_E_CUE_BALL,
@@ -18,7 +18,6 @@ from pool_sim_ros.report.comparison import (
 )
 from pool_sim_ros.report.markup import Cell, ball_name, fill, number, pair, short, table
 from pool_sim_ros.report.played import moved_balls
-from pool_sim_ros.report.shots import nearest_ball
 
 REPORT_SLICE = SLICES[-1]
 
@@ -87,7 +86,7 @@ def _slicing_error(section: str, given: Table, comparison: Comparison) -> str:
     return fill(
         'slicing_error.html',
         section=section,
-        contacts=int((comparison.exact.events['kind'] != STOPPED).sum()),
+        contacts=int((comparison.exact.events['kind'] != EventKind.STOP).sum()),
         time_slice=short(REPORT_SLICE),
         ball=given.labels[ball],
         error=number(error, 3),

@@ -8,16 +8,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import pool_sim_ros
-from pool_sim_ros.physics.record import BALL_BALL, CUSHION
+from pool_sim_ros.me212.log import inches
+from pool_sim_ros.me212.shots import nearest_ball
+from pool_sim_ros.physics import INCH, EventKind
 from pool_sim_ros.report.comparison import Comparison
 from pool_sim_ros.report.comparison_page import comparison_section
-from pool_sim_ros.report.log import INCH, inches
 from pool_sim_ros.report.markup import ball_name, figure, fill, number, pair, short, table
 from pool_sim_ros.report.mathml import with_formulae
 from pool_sim_ros.report.part_one import example
 from pool_sim_ros.report.played import PlayedShot, verdict
-from pool_sim_ros.report.shots import nearest_ball
-from pool_sim_ros.settings import Settings
+from pool_sim_ros.simulator.settings import Settings
 
 LAYOUT_FIGURE = 3
 """Number of the figure that shows the layout; two for each shot follow, as in the report."""
@@ -200,8 +200,8 @@ def _shot(content: Content, shot: PlayedShot) -> str:
         direction=number(math.degrees(math.atan2(*reversed(shot.velocity))), 3),
         aim=aim,
         duration=f'{shot.trajectory.duration:.3f}',
-        ball_contacts=int((kinds == BALL_BALL).sum()),
-        cushion_contacts=int((kinds == CUSHION).sum()),
+        ball_contacts=int((kinds == EventKind.BALL_BALL).sum()),
+        cushion_contacts=int((kinds == EventKind.CUSHION).sum()),
         start_picture=figure(
             content.pictures,
             f'images/Simulation_{shot.number}_start.png',

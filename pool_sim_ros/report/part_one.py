@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from pool_sim_ros.physics import Ball, Table, two_ball_collision
-from pool_sim_ros.physics.two_ball import TwoBallCollision
+from pool_sim_ros.physics import Ball, Table, TwoBallCollision, two_ball_collision
 
 VELOCITY = (1.2, 0.6)
 """Of ball a, m/s; ball b is at rest."""

@@ -13,7 +13,6 @@ from matplotlib.transforms import Affine2D
 from pool_sim_ros.physics import Ball, Trajectory
 from pool_sim_ros.report.drawing import PATH_LEVEL, label_outline
 from pool_sim_ros.report.played import moved_balls
-from pool_sim_ros.ways import waypoints
 
 DASHES = (
     (0, ()),
@@ -39,7 +38,7 @@ def draw_paths(axes: Axes, trajectory: Trajectory) -> None:
 
     A dashed circle with a label is where it started; arrows show the direction.
     """
-    ways = {index: waypoints(trajectory, index) for index in moved_balls(trajectory)}
+    ways = {index: trajectory.path(index) for index in moved_balls(trajectory)}
     for order, (index, corners) in enumerate(ways.items()):
         ball = trajectory.table.balls[index]
         _draw_line(axes, ball, corners, DASHES[order % len(DASHES)])

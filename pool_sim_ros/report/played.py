@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pool_sim_ros.me212.log import inches, published_final_positions
+from pool_sim_ros.me212.printed import is_report_table
+from pool_sim_ros.me212.shots import attitude_to_nearest, cue_velocity, nearest_ball
 from pool_sim_ros.physics import Table, Trajectory, simulate
 from pool_sim_ros.report.errors import ReportError
-from pool_sim_ros.report.log import inches, published_final_positions
-from pool_sim_ros.report.printed import deviations, is_report_table
-from pool_sim_ros.report.shots import attitude_to_nearest, cue_velocity, nearest_ball
-from pool_sim_ros.settings import Settings
+from pool_sim_ros.simulator.settings import Settings
 
 
 class ShotError(ReportError):
@@ -103,14 +103,14 @@ def verdict(settings: Settings, shots: Sequence[PlayedShot]) -> str:
     if not printed:
         return 'The report printed nothing for this table, so there is nothing to compare with.'
     equal = sum(shot.equal_to_print for shot in shots)
-    differing = deviations(settings)
+    differing = settings.deviations
     why = f'; the print is not of this run ({", ".join(differing)})' if differing else ''
     return f'{equal} of {printed} end positions equal the printed ones to the last digit{why}.'
 
 
 def log_remark(settings: Settings) -> str | None:
     """Return what the log says of a run that the report did not print; None for the report's."""
-    differing = deviations(settings)
+    differing = settings.deviations
     return f'Not the run that the report printed: {", ".join(differing)}' if differing else None
 
 

@@ -6,7 +6,7 @@ import csv
 import io
 from collections.abc import Iterable
 
-from pool_sim_ros.report.log import INCH
+from pool_sim_ros.physics import INCH
 from pool_sim_ros.report.played import PlayedShot
 
 COLUMNS = (

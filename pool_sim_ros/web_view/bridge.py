@@ -13,9 +13,9 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from pool_sim_ros import conversions, interface
-from pool_sim_ros.spinning import SpinThread
-from pool_sim_ros.startup import client_node
+from pool_sim_ros.ros import interface, messages
+from pool_sim_ros.ros.process import client_node
+from pool_sim_ros.ros.spin_thread import SpinThread
 from pool_sim_ros.web_view.poses import LatestPoses
 
 PATIENCE = 6.0
@@ -110,7 +110,7 @@ class Bridge:
     def request(self, **fields: object) -> None:
         """Send a request, as `~/shot/request` takes it, under a new id."""
         request = {'id': uuid.uuid4().hex, **fields}
-        self._requests.publish(conversions.to_json_string(request))
+        self._requests.publish(messages.to_json_string(request))
 
     async def call(self, service: interface.Service, **fields: object) -> tuple[bool, str]:
         """Call a service; return whether it did what was asked, and its words.

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from pool_sim_ros.physics import Table, simulate
-from pool_sim_ros.ways import waypoints
 
 LONGEST = 120.0
 """Seconds of play that are predicted; the default of the node's `max_shot_duration`."""
@@ -39,6 +38,6 @@ def predict(
     moved = np.flatnonzero(np.any(shot.final_positions != positions, axis=1))
     moved = sorted({*moved.tolist(), *shot.segments['ball'][shot.segments['speed'] > 0.0].tolist()})
     return {
-        'paths': [{'ball': i, 'points': waypoints(shot, i).tolist()} for i in moved],
+        'paths': [{'ball': i, 'points': shot.path(i).tolist()} for i in moved],
         'duration': shot.duration,
     }

@@ -9,11 +9,11 @@ from dataclasses import asdict
 import numpy as np
 from rclpy.context import Context
 
-from pool_sim_ros import conversions, interface
+from pool_sim_ros.me212.log import published_final_positions
 from pool_sim_ros.physics import Table, compile_kernels
-from pool_sim_ros.protocol import COLLISION_COLUMNS, Phase
-from pool_sim_ros.report.log import published_final_positions
-from pool_sim_ros.table_json import table_from_json
+from pool_sim_ros.ros import interface, messages
+from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS, Phase
+from pool_sim_ros.simulator.table_json import table_from_json
 from pool_sim_ros.web_view.bridge import Bridge, NoAnswerError
 from pool_sim_ros.web_view.commands import Command, parse_command
 from pool_sim_ros.web_view.frames import frame_positions, page_frame
@@ -111,7 +111,7 @@ class View:
 
     def on_collisions(self, collisions: object) -> None:
         """Show what touched; see `bridge.Listener`."""
-        rows = conversions.from_rows(collisions)
+        rows = messages.from_rows(collisions)
         if rows.shape[1] != len(COLLISION_COLUMNS) or not np.isfinite(rows).all():
             return
         self.pages.tell('collisions', rows.tolist())

@@ -8,8 +8,8 @@ import json
 import sys
 import time
 
-from pool_sim_ros import sim_node
-from pool_sim_ros.pacer import Pacer
+from pool_sim_ros.ros import sim_node
+from pool_sim_ros.simulator.pacer import Pacer
 
 RATE = 60
 

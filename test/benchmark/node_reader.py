@@ -13,7 +13,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from pool_sim_ros import interface
+from pool_sim_ros.ros import interface
 
 TOPICS = (interface.BALL_POSES, interface.BALL_VELOCITIES, interface.COLLISIONS)
 STAMP = slice(4, 12)

@@ -21,7 +21,7 @@ from geometry_msgs.msg import Twist, Vector3
 from ros_harness import Observer, Process, node_process, start_node
 from waiting import PATIENCE
 
-from pool_sim_ros import interface
+from pool_sim_ros.ros import interface
 
 READER = Path(__file__).with_name('node_reader.py')
 LATENESS = Path(__file__).with_name('lateness.py')

@@ -1,16 +1,15 @@
 """The page in the browser: how often it draws, and what its server takes, while the balls roll."""
 
 import os
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
 from benchmark.test_bench_node import processor_seconds
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'web'))
-browser_tests = pytest.importorskip('test_browser', reason='Chromium or playwright is missing')
+browser_tests = pytest.importorskip(
+    'web_view.test_browser', reason='Chromium or playwright is missing'
+)
 from site_harness import simulator, web_view  # noqa: E402
 
 SECTION = 'The page in the browser'

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
+from pool_sim_ros.me212.shots import SHOT_NUMBERS, cue_velocity
 from pool_sim_ros.physics import Ball, Table, report_table
-from pool_sim_ros.report.shots import SHOT_NUMBERS, cue_velocity
 
 RADIUS = 0.02
 """Of the balls on the dense table, m."""

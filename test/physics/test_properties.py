@@ -3,8 +3,8 @@
 import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from soundness import assert_sound
 from tables import under
-from test_robust import assert_sound
 
 from pool_sim_ros.physics import Ball, Table
 

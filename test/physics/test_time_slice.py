@@ -10,7 +10,7 @@ from tables import LAWS, random_table, random_velocity, report_shots, table_of
 
 from pool_sim_ros.physics import report_table, simulate
 
-PUBLISHED = files('pool_sim_ros.report') / 'published_final_positions.csv'
+PUBLISHED = files('pool_sim_ros.me212') / 'published_final_positions.csv'
 
 
 def assert_same_bits(found, twin):

@@ -1,0 +1,149 @@
+"""`python -m pool_sim_ros.cli.demo`: the report's four shots over ROS topics, beside its print."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import IO
+
+from pool_sim_ros.console.progress import ProgressLine
+from pool_sim_ros.me212.log import (
+    format_aim,
+    format_position,
+    format_shot_head,
+    published_final_positions,
+)
+from pool_sim_ros.me212.shots import attitude_to_nearest, nearest_ball
+from pool_sim_ros.ros.client import ShotClient, SimulatorError
+from pool_sim_ros.ros.process import INTERRUPTED, init_ros
+from pool_sim_ros.simulator.table_json import table_from_json
+
+PATIENCE = 300.0
+"""Seconds without a sign of the node after which something is wrong: the slowest machine compiles
+the physics in less."""
+
+NODE = f'pool_demo_{os.getpid()}'
+"""A name of its own, out of the way of any other simulator."""
+
+
+def main(args: list[str] | None = None) -> int:
+    """Play the four shots; return 0 where all positions equal the printed ones."""
+    options = _parser().parse_args(args)
+    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+    # Like Ctrl-C, so that the node does not outlive the demo.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with tempfile.TemporaryFile() as log:
+        try:
+            with _simulator(options.speed, log) as process:
+                return _play_all(process, options.speed)
+        except SimulatorError as error:
+            print(f'demo: {error}\n{_text(log)}', file=sys.stderr)
+            return 1
+        except KeyboardInterrupt:
+            print('\ndemo: interrupted', file=sys.stderr)
+            return INTERRUPTED
+
+
+@contextmanager
+def _simulator(speed: float, log: IO[bytes]) -> Iterator[subprocess.Popen]:
+    command = [sys.executable, '-m', 'pool_sim_ros.ros.sim_node']
+    arguments = ['--ros-args', '-r', f'__node:={NODE}', '-p', f'real_time_factor:={speed}']
+    process = subprocess.Popen([*command, *arguments], stdout=log, stderr=log)
+    try:
+        print('Starting the node; on the first run it compiles the physics, for about 20 s ...')
+        _wait_until_ready(process, log)
+        yield process
+    finally:
+        process.terminate()
+        try:
+            process.wait(5.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def _wait_until_ready(process: subprocess.Popen, log: IO[bytes]) -> None:
+    # Not before it is ready: two that start together take seconds longer to find each other.
+    end = time.monotonic() + PATIENCE
+    while 'ready' not in _text(log):
+        if process.poll() is not None:
+            raise SimulatorError('the node has ended')
+        if time.monotonic() > end:
+            raise SimulatorError(f'the node was not ready after {PATIENCE:g} s')
+        time.sleep(0.02)
+
+
+def _text(log: IO[bytes]) -> str:
+    # Read past the file's own position, which belongs to the process that writes it.
+    return os.pread(log.fileno(), 1 << 20, 0).decode(errors='replace')
+
+
+def _play_all(process: subprocess.Popen, speed: float) -> int:
+    context = init_ros([])
+    client = ShotClient(context, NODE, has_ended=lambda: process.poll() is not None)
+    line = ProgressLine(sys.stdout)
+    try:
+        client.wait_for_simulator(PATIENCE)
+        pace = f'at {speed:g} x real speed' if speed else 'as fast as possible'
+        print(f"Playing the report's four shots over the topics of {client.simulator}, {pace}.")
+        print('Beside each position: whether it equals the one that the report printed.\n')
+        table = table_from_json(client.table_json(PATIENCE))
+        print(format_aim(table.labels[nearest_ball(table)], attitude_to_nearest(table)))
+        published = published_final_positions()
+        equal = sum(_play(client, line, shot, printed) for shot, printed in published.items())
+    finally:
+        line.clear()
+        client.close()
+        context.try_shutdown()
+    total = sum(len(printed) for printed in published.values())
+    print(f'{equal} of {total} positions equal the print.')
+    return 0 if equal == total else 1
+
+
+def _play(
+    client: ShotClient, line: ProgressLine, shot: int, printed: dict[str, tuple[float, float]]
+) -> int:
+    """Play one shot and print its part of the log; return how many positions equal the print."""
+
+    def show(words: str) -> None:
+        line.show(f'Simulation {shot}: {words}')
+
+    response = client.play(shot, timeout=PATIENCE, on_progress=show if line.wanted else None)
+    line.clear()
+    print(format_shot_head(shot, response['velocity']), end='')
+    equal = 0
+    for label, position in response['final_positions'].items():
+        same = tuple(response['final_positions_in'][label]) == printed[label]
+        equal += same
+        x, y = printed[label]
+        mark = 'as printed' if same else f'NOT as printed: [{x:5.2f}, {y:5.2f}]'
+        print(f'{format_position(label, position)}   {mark}')
+    print(flush=True)
+    return equal
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='python -m pool_sim_ros.cli.demo',
+        description="Start the node, play the report's four shots over its topics, and compare "
+        'where the balls stop with what the report printed.',
+    )
+    parser.add_argument(
+        '--speed',
+        type=float,
+        default=1.0,
+        metavar='FACTOR',
+        help='how many times faster than real time; 0 = as fast as possible (default: %(default)g)',
+    )
+    return parser
+
+
+if __name__ == '__main__':
+    sys.exit(main())

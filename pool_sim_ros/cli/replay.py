@@ -1,0 +1,121 @@
+"""The command `replay`: show a recorded session again, on the topics that it was recorded from."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+import time
+
+from rclpy.context import Context
+from rclpy.duration import Duration
+from rclpy.node import Node
+
+from pool_sim_ros.ros import interface
+from pool_sim_ros.ros.process import (
+    INTERRUPTED,
+    NAME_ERRORS,
+    StartupError,
+    init_ros,
+    shut_down_on_signals,
+    without_ros_args,
+)
+from pool_sim_ros.ros.publishers import Publishers
+from pool_sim_ros.simulator.command_log import LogError, read_log
+from pool_sim_ros.simulator.pacer import Pacer
+from pool_sim_ros.simulator.replay import digests, replay
+from pool_sim_ros.simulator.settings import Settings
+
+NAP = 0.05
+"""Seconds after which to look up, at the latest, whether to go on."""
+
+DELIVERY_PATIENCE = 5.0
+"""Seconds for which the last frames are given to reach their readers."""
+
+
+def main(args: list[str] | None = None) -> int:
+    """Replay a session; return the exit status."""
+    args = sys.argv[1:] if args is None else args
+    try:
+        options = _parser().parse_args(without_ros_args(args))
+        settings, commands = read_log(options.file)
+        if options.digest:
+            for topic, digest in digests(settings, replay(settings, commands)).items():
+                print(f'{digest}  {topic}')
+            return 0
+        context = init_ros(args)
+        shut_down_on_signals(context)
+        try:
+            _play(context, settings, commands, options)
+        finally:
+            context.try_shutdown()
+    except (StartupError, LogError, *NAME_ERRORS) as error:
+        print(f'replay: {error}', file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:  # before the signals are ours
+        return INTERRUPTED
+    return 0
+
+
+def _play(
+    context: Context, settings: Settings, commands: list[dict], options: argparse.Namespace
+) -> None:
+    node = Node(interface.NODE_NAME, context=context, start_parameter_services=False)
+    try:
+        output = Publishers(node, settings)
+        output.table(settings)
+        while options.wait and context.ok() and not output.is_read():
+            time.sleep(NAP)
+        pacer = Pacer(settings.publish_rate, options.speed)
+        for frame in replay(settings, commands):
+            while context.ok() and (wait := pacer.wait(moving=True)) > 0.0:
+                time.sleep(min(wait, NAP))
+            if not context.ok():
+                return
+            output.frame(frame)
+            pacer.shown()
+        output.wait_for_delivery(Duration(seconds=DELIVERY_PATIENCE))
+    except Exception:
+        if context.ok():  # else a signal overtook whatever was going on
+            raise
+    finally:
+        node.destroy_node()
+
+
+def _speed(text: str) -> float:
+    speed = float(text)
+    if not (math.isfinite(speed) and speed >= 0.0):
+        raise ValueError
+    return speed
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='replay',
+        description='Show a session again that sim_node recorded (its parameter record): the same '
+        'bytes on ball_poses, ball_velocities and collisions.',
+        epilog='ROS arguments, like --ros-args -r __ns:=/NS, may follow.',
+    )
+    parser.add_argument('file', metavar='FILE', help='the log that sim_node wrote')
+    parser.add_argument(
+        '--speed',
+        type=_speed,
+        default=1.0,
+        metavar='FACTOR',
+        help='sim seconds per second; 0 = as fast as possible (default: %(default)g)',
+    )
+    parser.add_argument(
+        '--wait',
+        action='store_true',
+        help='begin once somebody reads ball_poses, ball_velocities and collisions',
+    )
+    parser.add_argument(
+        '--digest',
+        action='store_true',
+        help='show nothing, but print the SHA-256 of what would be sent on each topic',
+    )
+    return parser
+
+
+if __name__ == '__main__':
+    sys.exit(main())

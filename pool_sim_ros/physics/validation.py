@@ -1,0 +1,115 @@
+"""Checks of what is given, with messages that name what was wrong and what would be right."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pool_sim_ros.physics.jit import kernel
+
+if TYPE_CHECKING:
+    from pool_sim_ros.physics.table import Table
+
+OVERLAP = 1e-9
+"""Overlap in m that is taken for touching: a thousand times what rounding makes, and unseen."""
+
+
+def number(
+    name: str,
+    value: object,
+    least: float = -math.inf,
+    most: float = math.inf,
+    above: float = -math.inf,
+) -> float:
+    """Return `value` as a float; raise ValueError, naming it, where it is no number in range."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f'{name}: {value!r} is not a number') from None
+    if not math.isfinite(number):
+        raise ValueError(f'{name}: {number} is not finite')
+    if number <= above:
+        raise ValueError(f'{name}: {number} must be above {above:g}')
+    if number < least:
+        raise ValueError(f'{name}: {number} must be at least {least:g}')
+    if number > most:
+        raise ValueError(f'{name}: {number} must be at most {most:g}')
+    return number
+
+
+def numbers(
+    name: str, values: object, count: int, least: float = -math.inf, most: float = math.inf
+) -> tuple[float, ...]:
+    """Return `values` as floats; raise ValueError where they are not `count` numbers in range."""
+    try:
+        items = tuple(values)
+    except TypeError:
+        items = ()
+    if isinstance(values, str) or len(items) != count:
+        raise ValueError(f'{name}: {values!r} must be {count} numbers')
+    return tuple(number(name, item, least, most) for item in items)
+
+
+def check_layout(table: Table, positions: np.ndarray, name: str = 'positions') -> None:
+    """Raise ValueError, naming the ball, where one is outside, in another or not finite.
+
+    Parameters
+    ----------
+    table : Table
+        Whose balls are to lie there.
+    positions : ndarray of shape (n, 2)
+        m.
+    name : str, optional
+        What the positions are called in the message.
+    """
+    size = table.length, table.width
+    order = np.argsort(positions[:, 0])
+    i, j = first_fault(positions, table.radii, *size, order)
+    if i >= 0:
+        fault = describe_fault(positions, table.radii, *size, table.labels, i, j)
+        raise ValueError(f'{name}: {fault}')
+
+
+def describe_fault(positions, radii, length, width, labels, i, j) -> str:
+    """Say in one line what `first_fault` found."""
+    x, y = positions[i]
+    if j >= 0:
+        depth = radii[i] + radii[j] - np.hypot(*(positions[j] - positions[i]))
+        return f'ball {labels[i]!r} and ball {labels[j]!r} overlap by {depth:.3g} m'
+    if not (np.isfinite(x) and np.isfinite(y)):
+        return f'ball {labels[i]!r} is at ({x}, {y}), which is not finite'
+    return (
+        f'ball {labels[i]!r} of radius {radii[i]:g} m is at ({x:g}, {y:g}) m, outside the table of '
+        f'{length:g} x {width:g} m'
+    )
+
+
+@kernel
+def first_fault(positions, radii, length, width, order):
+    """Return (i, -1) for a ball outside, (i, j) for two that overlap, (-1, -1) for none.
+
+    Sweeps along x, in which `order` sorts the balls, so that a large table costs little.
+    """
+    n = len(positions)
+    widest = 0.0
+    for i in range(n):
+        x, y, r = positions[i, 0], positions[i, 1], radii[i]
+        inside_x = r - OVERLAP <= x <= length - r + OVERLAP
+        inside_y = r - OVERLAP <= y <= width - r + OVERLAP
+        if not (inside_x and inside_y):
+            return i, -1
+        widest = max(widest, r)
+    for k in range(n):
+        i = order[k]
+        for m in range(k + 1, n):
+            j = order[m]
+            dx = positions[j, 0] - positions[i, 0]
+            if dx > radii[i] + widest:
+                break
+            dy = positions[j, 1] - positions[i, 1]
+            least = radii[i] + radii[j] - OVERLAP
+            if least > 0.0 and dx * dx + dy * dy < least * least:
+                return min(i, j), max(i, j)
+    return -1, -1

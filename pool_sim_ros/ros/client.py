@@ -1,0 +1,240 @@
+"""A client of the node: sends requests over the topics and waits for what comes of them."""
+
+from __future__ import annotations
+
+import json
+import time
+import uuid
+from collections.abc import Callable
+
+import numpy as np
+from geometry_msgs.msg import PoseArray
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from std_msgs.msg import Float64MultiArray, String
+
+from pool_sim_ros.ros import interface, messages
+from pool_sim_ros.ros.process import client_node
+from pool_sim_ros.simulator.shot_request import Phase
+
+NAP = 0.1
+"""Seconds at most between two looks at what was waited for."""
+
+IDLE_STATES = 6
+"""States in a row, each of a later tick, that show neither a shot nor a pause: the shot is lost. It
+begins one tick after it was computed, and that it is done may be heard late."""
+
+
+class SimulatorError(Exception):
+    """The simulator did not do what was asked; the message is for the user."""
+
+
+class ShotClient:
+    """Plays shots on a simulator, one after another.
+
+    Parameters
+    ----------
+    context : Context
+        Initialised; stays the caller's.
+    simulator : str, optional
+        Name of the node, relative to the client's namespace or absolute.
+    has_ended : callable, optional
+        Returns whether the simulator is known to be gone, so that waiting is useless.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        simulator: str = interface.NODE_NAME,
+        has_ended: Callable[[], bool] = lambda: False,
+    ) -> None:
+        self._has_ended = has_ended
+        self._node = client_node(context, 'client')
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(self._node)
+        self._simulator = simulator
+        topic = interface.SHOT_REQUEST
+        self._requests = self._node.create_publisher(topic.type, topic.of(simulator), topic.qos)
+        self._responses = self._subscribe(interface.SHOT_RESPONSE, self._on_response)
+        self._subscribe(interface.STATE, self._on_state)
+        self._id = ''
+        self._answers: list[dict] = []
+        self._idle_states = 0
+        self._tick = -1
+        self._paused = False
+        self._last_sign = time.monotonic()
+
+    @property
+    def simulator(self) -> str:
+        """Full name of the node that is talked to."""
+        return self._requests.topic_name.removesuffix(f'/{interface.SHOT_REQUEST.name}')
+
+    def close(self) -> None:
+        """Leave ROS."""
+        self._executor.shutdown(0.0)
+        self._node.destroy_node()
+
+    def wait_for_simulator(self, timeout: float) -> None:
+        """Wait until the simulator takes requests and its answers arrive.
+
+        Parameters
+        ----------
+        timeout : float
+            s.
+
+        Raises
+        ------
+        SimulatorError
+            Where it does not come.
+        """
+
+        def matched() -> bool:
+            return (
+                self._requests.get_subscription_count() > 0
+                and self._responses.get_publisher_count() > 0
+            )
+
+        self._wait(
+            matched,
+            timeout,
+            f'no simulator answers as {self.simulator} (waited for {timeout:g} s); '
+            'is sim_node running, with the same ROS_DOMAIN_ID?',
+        )
+
+    def table_json(self, timeout: float) -> str:
+        """Return what `~/table` says; see `table_json.table_from_json`."""
+        texts: list[str] = []
+        subscription = self._subscribe(interface.TABLE, lambda message: texts.append(message.data))
+        try:
+            self._wait(
+                lambda: bool(texts),
+                timeout,
+                f'{self.simulator} announced no table within {timeout:g} s',
+            )
+        finally:
+            self._node.destroy_subscription(subscription)
+        return texts[-1]
+
+    def play(
+        self,
+        shot: int | None = None,
+        velocity: tuple[float, float] | None = None,
+        *,
+        timeout: float,
+        on_accepted: Callable[[dict], None] = lambda response: None,
+        on_progress: Callable[[str], None] | None = None,
+    ) -> dict:
+        """Play one shot and wait until all balls rest.
+
+        Parameters
+        ----------
+        shot : int, optional
+            Number of a report shot.
+        velocity : tuple of float, optional
+            Of the cue ball, m/s; instead of `shot`.
+        timeout : float
+            Seconds without an answer, and then without a sign of life, after which to give up.
+        on_accepted : callable, optional
+            Called with the response once the request is accepted.
+        on_progress : callable, optional
+            Called with words on what goes on, for every frame.
+
+        Returns
+        -------
+        dict
+            The last response, as `shot_request.Response` has it.
+
+        Raises
+        ------
+        SimulatorError
+            Where the shot is rejected or preempted, or the simulator falls silent.
+        """
+        self._id = uuid.uuid4().hex
+        self._answers.clear()
+        what = {'velocity': velocity} if shot is None else {'shot': shot}
+        self._requests.publish(messages.to_json_string({'id': self._id, **what}))
+        self._wait(
+            lambda: bool(self._answers),
+            timeout,
+            f'{self.simulator} did not answer the request within {timeout:g} s',
+        )
+        if self._answers[0]['phase'] != Phase.REJECTED:
+            on_accepted(self._answers[0])
+            self._wait_for_rest(timeout, on_progress)
+        response = self._answers[-1]
+        if response['phase'] != Phase.DONE:
+            raise SimulatorError(f'{response["phase"]} ({response["code"]}): {response["reason"]}')
+        return response
+
+    def _wait_for_rest(self, timeout: float, on_progress: Callable[[str], None] | None) -> None:
+        self._idle_states = 0
+        watching = [] if on_progress is None else self._watch(on_progress)
+        try:
+            while self._answers[-1]['phase'] == Phase.ACCEPTED:
+                self._spin()
+                if time.monotonic() - self._last_sign > timeout:
+                    raise SimulatorError(
+                        f'{self.simulator} fell silent {timeout:g} s ago, in the middle of the shot'
+                    )
+                if self._idle_states >= IDLE_STATES:
+                    raise SimulatorError(
+                        f'{self.simulator} knows nothing of this shot any more; was it restarted?'
+                    )
+        finally:
+            for subscription in watching:
+                self._node.destroy_subscription(subscription)
+
+    def _watch(self, on_progress: Callable[[str], None]) -> list:
+        times: list[int] = []
+        moving = 0
+
+        def on_velocities(message: Float64MultiArray) -> None:
+            nonlocal moving
+            moving = int(np.count_nonzero(messages.from_rows(message).any(axis=1)))
+
+        def on_poses(message: PoseArray) -> None:
+            self._last_sign = time.monotonic()
+            if not moving:
+                on_progress('paused' if self._paused else 'computing')
+                return
+            times.append(messages.from_time(message.header.stamp))
+            del times[1:-1]
+            balls = '1 ball moves' if moving == 1 else f'{moving} balls move'
+            on_progress(f'{(times[-1] - times[0]) * 1e-9:4.1f} s: {balls}')
+
+        return [
+            self._subscribe(interface.BALL_VELOCITIES, on_velocities),
+            self._subscribe(interface.BALL_POSES, on_poses),
+        ]
+
+    def _subscribe(self, topic: interface.Topic, callback: Callable):
+        name = topic.of(self._simulator)
+        return self._node.create_subscription(topic.type, name, callback, topic.qos)
+
+    def _wait(self, condition: Callable[[], bool], timeout: float, otherwise: str) -> None:
+        end = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > end:
+                raise SimulatorError(otherwise)
+            self._spin()
+
+    def _spin(self) -> None:
+        if self._has_ended():
+            raise SimulatorError('the simulator has ended')
+        self._executor.spin_once(NAP)
+
+    def _on_response(self, message: String) -> None:
+        self._last_sign = time.monotonic()
+        response = json.loads(message.data)
+        if response['id'] == self._id:
+            self._answers.append(response)
+
+    def _on_state(self, message: String) -> None:
+        self._last_sign = time.monotonic()
+        state = json.loads(message.data)
+        self._paused = state['paused']
+        if state['paused'] or state['moving'] or state['computing']:
+            self._idle_states = 0
+        elif state['tick'] != self._tick:
+            self._idle_states += 1
+        self._tick = state['tick']

@@ -1,0 +1,119 @@
+"""Every topic and service of the node, declared once; node, clients and tests read it here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseArray, Twist
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Float64MultiArray, String
+from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import MarkerArray
+
+NODE_NAME = 'pool_sim'
+"""The node's name unless it is renamed."""
+
+BURST = 1000
+"""Depth of the queues that must not lose a burst of commands or answers."""
+
+
+@dataclass(frozen=True)
+class Endpoint:
+    """A topic or a service.
+
+    Attributes
+    ----------
+    name : str
+        Below the node's own name; absolute with a leading slash.
+    type : type
+        Message or service type.
+    doc : str
+        What it carries, or does.
+    """
+
+    name: str
+    type: type
+    doc: str
+
+    @property
+    def private(self) -> str:
+        """The name that the node itself uses."""
+        return self.name if self.name.startswith('/') else f'~/{self.name}'
+
+    def of(self, node: str) -> str:
+        """Return the name that others use for a node of this name."""
+        return self.name if self.name.startswith('/') else f'{node}/{self.name}'
+
+
+@dataclass(frozen=True)
+class Topic(Endpoint):
+    """A topic, with its QoS."""
+
+    qos: QoSProfile
+
+
+@dataclass(frozen=True)
+class Service(Endpoint):
+    """A service."""
+
+
+def _qos(depth: int, latched: bool = False) -> QoSProfile:
+    return QoSProfile(
+        depth=depth,
+        reliability=ReliabilityPolicy.RELIABLE,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+
+
+CUE_VELOCITY = Topic(
+    'cue_velocity', Twist, 'strike the cue ball: linear.x and linear.y, m/s', _qos(BURST)
+)
+SHOT_REQUEST = Topic(
+    'shot/request',
+    String,
+    '1 to 4, or JSON {"id": "...", "shot": 3} or {"id": "...", "velocity": [-4.0, 0.0]}',
+    _qos(BURST),
+)
+SHOT_RESPONSE = Topic(
+    'shot/response', String, 'JSON: see shot_request.Response', _qos(BURST, latched=True)
+)
+SET_BALL_POSES = Topic(
+    'set_ball_poses',
+    PoseArray,
+    'put all balls elsewhere while they rest: position.x and y of each, m, cue ball first; z and '
+    'orientation are ignored',
+    _qos(10),
+)
+BALL_POSES = Topic('ball_poses', PoseArray, 'each tick: every ball, cue ball first', _qos(10))
+BALL_VELOCITIES = Topic(
+    'ball_velocities', Float64MultiArray, 'with each frame: (n, 2), m/s', _qos(10)
+)
+COLLISIONS = Topic(
+    'collisions',
+    Float64MultiArray,
+    'before the frame that contains them: rows of shot_request.COLLISION_COLUMNS. seq counts from '
+    '0 and is never reset; t is sim time, s; kind 0 is ball a on ball b, kind 1 is ball a on '
+    'cushion b (0: x = 0, 1: x = length, 2: y = 0, 3: y = width); x, y the point of contact, m; '
+    'nx, ny the unit vector from a to b or into the cushion; speed of closing, m/s',
+    _qos(BURST),
+)
+STATE = Topic(
+    'state',
+    String,
+    'JSON: paused, moving, computing, tick, sim_time, real_time_factor; on change and at 1 Hz',
+    _qos(1, latched=True),
+)
+TABLE = Topic('table', String, 'JSON: the fields of physics.Table', _qos(1, latched=True))
+MARKERS = Topic(
+    'markers', MarkerArray, 'the table, the balls, their labels and trails', _qos(10, latched=True)
+)
+CLOCK = Topic('/clock', Clock, 'sim time, only with the parameter publish_clock', _qos(1))
+DIAGNOSTICS = Topic(
+    '/diagnostics', DiagnosticArray, '1 Hz: speed, lateness, rejections, energy check', _qos(10)
+)
+
+RESET = Service('reset', Trigger, 'put the balls back on the start layout')
+SET_PAUSED = Service('set_paused', SetBool, 'pause or resume')
+STEP = Service('step', Trigger, 'while paused: advance step_ticks ticks')

@@ -1,0 +1,80 @@
+"""Recorded messages to an MCAP file."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+from rclpy.qos import DurabilityPolicy
+from rosbags.interfaces import (
+    Qos,
+    QosDurability,
+    QosHistory,
+    QosLiveliness,
+    QosReliability,
+    QosTime,
+)
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+
+from pool_sim_ros.ros import interface
+from pool_sim_ros.ros.recorder import Recorded
+
+_BAG_VERSION = 9  # of ROS 2 Jazzy
+_FOREVER = QosTime(2147483647, 4294967295)
+
+
+def write_bag(file: Path, messages: Iterable[Recorded]) -> None:
+    """Write messages to a single MCAP file, whole or not at all.
+
+    It holds the definitions of the message types, and how the topics were published, so that a
+    player publishes what was latched as latched.
+
+    Parameters
+    ----------
+    file : Path
+        One that is there is replaced.
+    messages : iterable of Recorded
+    """
+    with tempfile.TemporaryDirectory(prefix='.record_', dir=file.parent) as folder:
+        bag = Path(folder, 'bag')
+        with Writer(bag, version=_BAG_VERSION, storage_plugin=StoragePlugin.MCAP) as writer:
+            _write(writer, messages)
+        (written,) = bag.glob('*.mcap')
+        os.replace(written, file)
+
+
+def _write(writer: Writer, messages: Iterable[Recorded]) -> None:
+    types = get_typestore(Stores.ROS2_JAZZY)
+    connections = {}
+    for message in messages:
+        if message.name not in connections:
+            connections[message.name] = writer.add_connection(
+                message.name,
+                _type_name(message.topic.type),
+                typestore=types,
+                offered_qos_profiles=[_qos(message.topic)],
+            )
+        writer.write(connections[message.name], message.time, message.data)
+
+
+def _type_name(type_: type) -> str:
+    package, kind, _ = type_.__module__.split('.')
+    return f'{package}/{kind}/{type_.__name__}'
+
+
+def _qos(topic: interface.Topic) -> Qos:
+    latched = topic.qos.durability is DurabilityPolicy.TRANSIENT_LOCAL
+    return Qos(
+        QosHistory.KEEP_LAST,
+        topic.qos.depth,
+        QosReliability.RELIABLE,
+        QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE,
+        _FOREVER,
+        _FOREVER,
+        QosLiveliness.AUTOMATIC,
+        _FOREVER,
+        False,
+    )

@@ -1,0 +1,96 @@
+"""The node's parameters in ROS: declared with descriptors, checked and applied when set."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from pool_sim_ros.simulator.settings import (
+    PARAMETERS,
+    Change,
+    ParameterError,
+    ParameterSpec,
+    Settings,
+    build_settings,
+    coerce,
+    values_from,
+)
+
+
+def declare_parameters(node: Node) -> Settings:
+    """Check the values that were given at start-up, and declare all parameters with them.
+
+    Raises
+    ------
+    ParameterError
+        Where they do not make a table; nothing is declared then.
+    """
+    # rclpy has no public access to overrides of undeclared parameters, where a misspelt name is.
+    overrides = {name: parameter.value for name, parameter in node._parameter_overrides.items()}
+    values = values_from(overrides)
+    settings = build_settings(values)
+    declarations = [(name, values[name], describe(spec)) for name, spec in PARAMETERS.items()]
+    node.declare_parameters('', declarations, ignore_override=True)
+    return settings
+
+
+def describe(spec: ParameterSpec) -> ParameterDescriptor:
+    """Return the descriptor of a parameter."""
+    descriptor = ParameterDescriptor(
+        name=spec.name,
+        description=f'{spec.doc} ({spec.change.value})',
+        read_only=spec.change is Change.NEVER,
+        additional_constraints=' or '.join(spec.choices),
+    )
+    if isinstance(spec.default, float):
+        bounds = FloatingPointRange(from_value=float(spec.least), to_value=float(spec.most))
+        descriptor.floating_point_range = [bounds]
+    elif isinstance(spec.default, int) and not isinstance(spec.default, bool):
+        descriptor.integer_range = [
+            IntegerRange(from_value=int(spec.least), to_value=int(spec.most), step=1)
+        ]
+    return descriptor
+
+
+def on_change(node: Node, apply: Callable[[Settings], None]) -> None:
+    """Have every later change checked, and `apply` called with the settings once it is made."""
+
+    def settings_with(parameters: list[Parameter]) -> Settings:
+        values = {name: node.get_parameter(name).value for name in PARAMETERS}
+        for parameter in parameters:
+            if parameter.name in PARAMETERS:
+                values[parameter.name] = coerce(parameter.name, parameter.value)
+        return build_settings({name: coerce(name, value) for name, value in values.items()})
+
+    def whole_numbers_for_floats(parameters: list[Parameter]) -> list[Parameter]:
+        return [_as_declared(parameter) for parameter in parameters]
+
+    def check(parameters: list[Parameter]) -> SetParametersResult:
+        try:
+            settings_with(parameters)
+        except ParameterError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def changed(parameters: list[Parameter]) -> None:
+        if any(parameter.name in PARAMETERS for parameter in parameters):
+            apply(settings_with([]))
+
+    node.add_pre_set_parameters_callback(whole_numbers_for_floats)
+    node.add_on_set_parameters_callback(check)
+    node.add_post_set_parameters_callback(changed)
+
+
+def _as_declared(parameter: Parameter) -> Parameter:
+    spec = PARAMETERS.get(parameter.name)
+    if spec and isinstance(spec.default, float) and type(parameter.value) is int:
+        return Parameter(parameter.name, value=float(parameter.value))
+    return parameter

@@ -1,0 +1,142 @@
+"""Keeps what a simulator publishes, as serialised bytes."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+from geometry_msgs.msg import PoseArray
+from rclpy.context import Context
+from rclpy.qos import QoSProfile
+from rclpy.serialization import deserialize_message
+from std_msgs.msg import String
+
+from pool_sim_ros.ros import interface, messages
+from pool_sim_ros.ros.client import SimulatorError
+from pool_sim_ros.ros.process import client_node
+from pool_sim_ros.ros.spin_thread import SpinThread
+
+TOPICS = (
+    interface.TABLE,
+    interface.STATE,
+    interface.MARKERS,
+    interface.SHOT_REQUEST,
+    interface.SHOT_RESPONSE,
+    interface.BALL_VELOCITIES,
+    interface.COLLISIONS,
+    interface.BALL_POSES,
+)
+"""What is recorded.
+
+The simulator learns of the subscriptions in this order, so that once it sends the last, which comes
+with every tick, it sends the others too.
+"""
+
+_AT_ONCE = (interface.TABLE, interface.STATE, interface.MARKERS, interface.BALL_POSES)
+"""What comes without a shot: latched, or with every tick."""
+
+_DEPTH = 5000
+"""Messages that may wait to be taken."""
+
+
+class Recorded(NamedTuple):
+    """A message: when it came (wall time, ns), the topic, its full name and the CDR bytes."""
+
+    time: int
+    topic: interface.Topic
+    name: str
+    data: bytes
+
+
+class Recorder:
+    """Listens from its making to `close`.
+
+    Parameters
+    ----------
+    context : Context
+        Initialised; stays the caller's.
+    simulator : str
+        Name of the node, relative to the namespace of this one or absolute.
+    """
+
+    def __init__(self, context: Context, simulator: str) -> None:
+        self.messages: list[Recorded] = []
+        """What has come, in order."""
+        self._node = client_node(context, 'recorder')
+        self._simulator = simulator
+        self._subscriptions = [self._listen(topic) for topic in TOPICS]
+        self._thread = SpinThread(self._node)
+
+    def close(self) -> None:
+        """Listen no more."""
+        self._thread.close()
+        self._node.destroy_node()
+
+    def wait_for_topics(self, timeout: float) -> None:
+        """Wait until all that is published arrives; raises SimulatorError after `timeout` s."""
+        self._wait(self._hears_all, timeout, 'did not publish all its topics')
+
+    def wait_for_end(self, response: dict, timeout: float) -> None:
+        """Wait until all of a shot has come.
+
+        That is the last response to its request, after which no other comes, and two frames that
+        show its end: whatever was published with or before the first has been taken by then, for
+        the executor takes from each topic in turn.
+
+        Parameters
+        ----------
+        response : dict
+            The last response, as `shot_request.Response` has it.
+        timeout : float
+            s.
+
+        Raises
+        ------
+        SimulatorError
+            Where something is missing after that time.
+        """
+        end = round(response['t_end'] * 1e9)
+
+        def came() -> bool:
+            frames = [m.data for m in self.messages if m.topic is interface.BALL_POSES]
+            if len(frames) < 2:
+                return False
+            frame = deserialize_message(frames[-2], PoseArray)
+            if messages.from_time(frame.header.stamp) < end:
+                return False
+            texts = [m.data for m in self.messages if m.topic is interface.SHOT_RESPONSE]
+            answers = [json.loads(deserialize_message(text, String).data) for text in texts]
+            phases = [answer['phase'] for answer in answers if answer['id'] == response['id']]
+            return phases[-1:] == [response['phase']]
+
+        self._wait(came, timeout, 'did not send the end of the shot')
+
+    def _hears_all(self) -> bool:
+        heard = {message.name for message in self.messages}
+        return heard >= {
+            self._node.resolve_topic_name(topic.of(self._simulator)) for topic in _AT_ONCE
+        } and all(subscription.get_publisher_count() for subscription in self._subscriptions)
+
+    def _listen(self, topic: interface.Topic):
+        name = self._node.resolve_topic_name(topic.of(self._simulator))
+        qos = QoSProfile(
+            depth=_DEPTH,
+            reliability=topic.qos.reliability,
+            durability=topic.qos.durability,
+        )
+        if topic is interface.SHOT_RESPONSE:
+            qos.durability = interface.SHOT_REQUEST.qos.durability  # not those of the past
+
+        def keep(data: bytes) -> None:
+            self.messages.append(Recorded(time.time_ns(), topic, name, bytes(data)))
+
+        return self._node.create_subscription(topic.type, name, keep, qos, raw=True)
+
+    def _wait(self, condition: Callable[[], bool], timeout: float, otherwise: str) -> None:
+        end = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > end:
+                raise SimulatorError(f'{self._simulator} {otherwise} within {timeout:g} s')
+            time.sleep(0.01)

@@ -1,0 +1,195 @@
+"""The node: a pool table on ROS topics."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from geometry_msgs.msg import PoseArray, Twist
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, Trigger
+
+from pool_sim_ros.ros import interface, messages
+from pool_sim_ros.ros.parameters import declare_parameters, on_change
+from pool_sim_ros.ros.process import (
+    NAME_ERRORS,
+    StartupError,
+    init_ros,
+    leave_at_once,
+    shut_down_on_signals,
+    without_ros_args,
+)
+from pool_sim_ros.ros.publishers import Publishers
+from pool_sim_ros.simulator.command_log import CommandLog, LogError
+from pool_sim_ros.simulator.runner import Runner
+from pool_sim_ros.simulator.settings import PARAMETERS, ParameterError, Settings
+from pool_sim_ros.simulator.shot_request import Response
+
+LOG_PERIOD = 0.1
+"""Seconds between two warnings in the log; the responses are never held back."""
+
+SHUTDOWN_PATIENCE = 0.1
+"""Seconds that a shot which is being computed is given to end before the process does."""
+
+
+class SimNode(Node):
+    """Owns the table; spun by whoever made it, until `destroy_node`.
+
+    The owner's executor runs the callbacks; frames and shots have threads of their own.
+
+    Parameters
+    ----------
+    context : Context, optional
+    parameter_overrides : list of Parameter, optional
+    node_name : str, optional
+
+    Raises
+    ------
+    ParameterError
+        Where the parameters do not make a table.
+    """
+
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+        node_name: str = interface.NODE_NAME,
+    ) -> None:
+        super().__init__(node_name, context=context, parameter_overrides=parameter_overrides)
+        try:
+            settings = declare_parameters(self)
+            log = self._open_log(settings)
+        except Exception:
+            super().destroy_node()
+            raise
+        self._output = Publishers(self, settings)
+        self.runner = Runner(settings, self._output, log)
+        on_change(self, self.runner.apply)
+        self._subscribe(interface.CUE_VELOCITY, self._on_cue_velocity)
+        self._subscribe(interface.SHOT_REQUEST, self._on_shot_request)
+        self._subscribe(interface.SET_BALL_POSES, self._on_set_ball_poses)
+        self._serve(interface.RESET, self._on_reset)
+        self._serve(interface.SET_PAUSED, self._on_set_paused)
+        self._serve(interface.STEP, self._on_step)
+
+    @property
+    def failed(self) -> bool:
+        """Whether a thread failed; the context is shut down then."""
+        return self._output.failed
+
+    def destroy_node(self) -> None:
+        """Stop the threads and leave ROS; a shot that is being computed is left behind."""
+        self.runner.stop(0.0)
+        super().destroy_node()
+
+    def _subscribe(self, topic: interface.Topic, callback) -> None:
+        self.create_subscription(topic.type, topic.private, callback, topic.qos)
+
+    def _serve(self, service: interface.Service, callback) -> None:
+        self.create_service(service.type, service.private, callback)
+
+    def _open_log(self, settings: Settings) -> CommandLog | None:
+        if not settings.record:
+            return None
+        try:
+            return CommandLog(settings.record, settings, self.get_logger().error)
+        except LogError as error:
+            raise ParameterError(f'record: {error}') from error
+
+    def _on_cue_velocity(self, message: Twist) -> None:
+        self._log(self.runner.strike(*messages.from_twist(message)))
+
+    def _on_shot_request(self, message: String) -> None:
+        self._log(self.runner.request(message.data))
+
+    def _on_set_ball_poses(self, message: PoseArray) -> None:
+        refusal = self.runner.place(messages.from_poses(message))
+        if refusal is not None:
+            self._warn(f'set_ball_poses was rejected: {refusal}')
+
+    def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        preempted = self.runner.reset()
+        response.success = True
+        shot = ', the shot in hand was preempted' if preempted else ''
+        response.message = f'the balls are back on the start layout{shot}'
+        return response
+
+    def _on_set_paused(
+        self, request: SetBool.Request, response: SetBool.Response
+    ) -> SetBool.Response:
+        self.runner.set_paused(request.data)
+        response.success = True
+        response.message = 'paused' if request.data else 'playing'
+        return response
+
+    def _on_step(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success, response.message = self.runner.step()
+        return response
+
+    def _log(self, response: Response) -> None:
+        if response.reason is not None:
+            self._warn(f'{response.phase.value} ({response.code.value}): {response.reason}')
+
+    def _warn(self, line: str) -> None:
+        self.get_logger().warn(line, throttle_duration_sec=LOG_PERIOD)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node until SIGINT or SIGTERM; return the exit status."""
+    args = sys.argv[1:] if args is None else args
+    try:
+        _parser().parse_args(without_ros_args(args))
+        return _run(init_ros(args))
+    except (StartupError, ParameterError, *NAME_ERRORS) as error:
+        print(f'sim_node: {error}', file=sys.stderr)
+        return 1
+
+
+def _run(context: Context) -> int:
+    shut_down_on_signals(context)
+    node = None
+    try:
+        node = SimNode(context=context)
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        executor.spin()
+    except Exception:
+        if context.ok():  # else the shutdown overtook whatever was going on
+            raise
+    finally:
+        idle = node is None or node.runner.stop(SHUTDOWN_PATIENCE)
+        if node is not None:
+            node.destroy_node()
+        context.try_shutdown()
+    status = int(node is not None and node.failed)
+    if not idle:
+        leave_at_once(status)
+    return status
+
+
+def _parser() -> argparse.ArgumentParser:
+    endpoints = [item for item in vars(interface).values() if isinstance(item, interface.Endpoint)]
+    epilog = [
+        'ROS arguments: --ros-args --params-file FILE -p NAME:=VALUE -r __node:=NAME -r __ns:=/NS',
+        '',
+        'topics and services:',
+        *(f'  {endpoint.private}: {endpoint.doc}' for endpoint in endpoints),
+        '',
+        'parameters:',
+        *(f'  {spec.name}: {spec.doc} ({spec.change.value})' for spec in PARAMETERS.values()),
+    ]
+    return argparse.ArgumentParser(
+        prog='sim_node',
+        description='A pool table on ROS topics. Without parameters: the table of the report.',
+        epilog='\n'.join(epilog),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,291 @@
+"""The threads of the simulation: one shows the frames, one computes the shots."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+import traceback
+from collections.abc import Sequence
+
+import numpy as np
+
+from pool_sim_ros.physics import compile_kernels
+from pool_sim_ros.simulator.command_log import CommandLog
+from pool_sim_ros.simulator.health import Health, energy_rise
+from pool_sim_ros.simulator.job import Job
+from pool_sim_ros.simulator.output import Output
+from pool_sim_ros.simulator.pacer import Pacer
+from pool_sim_ros.simulator.settings import Settings
+from pool_sim_ros.simulator.shot_request import Phase, Response
+from pool_sim_ros.simulator.simulation import Simulation
+from pool_sim_ros.simulator.worker import Worker
+
+STATE_PERIOD = 1.0
+"""Seconds between two states while nothing changes: a heartbeat for clients."""
+
+PAUSED_CLOCK_PERIOD = 0.1
+"""Seconds between two clocks while paused: a late subscriber must not wait long."""
+
+LONGEST_NAP = 0.05
+"""Seconds after which the playback thread looks up at the latest: it bounds how long resuming and
+stopping take."""
+
+HEAD_START = 8e-4
+"""Seconds that are slept last and apart: a short sleep ends more exactly than a long one."""
+
+LONGEST_BATCH = 0.002
+"""Seconds of frames in a row while the lock is held: it bounds how long a request waits."""
+
+SHORTEST_NAP = 1e-4
+"""Seconds for which the lock is free between two batches, long enough to be taken by a waiter."""
+
+BUSY_NAP = 1e-3
+"""The same while requests keep coming, so that they get their share of the interpreter."""
+
+BUSY_PERIOD = 0.05
+"""Seconds after a request in which another one is expected."""
+
+STEP_PATIENCE = 5.0
+"""Seconds for which a step waits for the shot that is being computed, so that it is shown."""
+
+HEALTH_PERIOD = 1.0
+"""Seconds between two diagnostics, as their readers expect them."""
+
+COMPILE_NOTICE = 1.0
+"""Seconds after which the kernels are not merely being loaded, but compiled."""
+
+
+class Runner:
+    """Plays a simulation in time.
+
+    One lock guards the simulation, the pacer and the order of what is sent: who holds it may use
+    all three, and must not compute or sleep meanwhile. Every method may be called from any thread.
+
+    Parameters
+    ----------
+    settings : Settings
+    output : Output
+    log : CommandLog, optional
+        Where to record; closed in the end.
+    """
+
+    def __init__(self, settings: Settings, output: Output, log: CommandLog | None = None) -> None:
+        self.ready = threading.Event()
+        """Set once the kernels are compiled and this was told."""
+        self._simulation = Simulation(settings, log=log)
+        self._health = Health()
+        self._pacer = Pacer(settings.publish_rate, settings.real_time_factor)
+        self._output = output
+        self._lock = threading.Lock()
+        self._computed = threading.Condition(self._lock)
+        self._stopping = threading.Event()
+        self._shown_state: dict[str, object] = {}
+        now = time.monotonic()
+        self._last_request = self._next_state = self._next_clock = self._next_health = now
+        output.table(settings)
+        self._worker = Worker('compute')
+        self._worker.submit(self._prepare)
+        self._playing = threading.Thread(target=self._play, name='playback', daemon=True)
+        self._playing.start()
+
+    def request(self, text: str) -> Response:
+        """Take, and answer, a request as `~/shot/request` carries it."""
+        with self._lock:
+            return self._answer(*self._simulation.request(text))
+
+    def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Response:
+        """Take, and answer, a twist of the cue ball, (3,) m/s and (3,) rad/s."""
+        with self._lock:
+            return self._answer(*self._simulation.strike(linear, angular))
+
+    def reset(self) -> bool:
+        """Put the balls back on the start layout; return whether a shot was preempted."""
+        with self._lock:
+            preempted = self._simulation.reset()
+            self._output.responses(preempted)
+            self._show_state()
+            self._computed.notify_all()
+            return bool(preempted)
+
+    def place(self, positions: np.ndarray) -> str | None:
+        """Put the balls at (k, 2) positions in m; return why this cannot be, or None."""
+        with self._lock:
+            self._last_request = time.monotonic()
+            refusal = self._simulation.place(positions)
+            if refusal is not None:
+                self._health.rejected(f'set_ball_poses: {refusal}')
+            return refusal
+
+    def set_paused(self, paused: bool) -> None:
+        """Pause or resume."""
+        with self._lock:
+            self._simulation.playback.paused = paused
+            self._pacer.restart()
+            self._show_state()
+
+    def step(self) -> tuple[bool, str]:
+        """Advance by `step_ticks` while paused; return whether this was done, and words."""
+        simulation = self._simulation
+        with self._lock:
+            if not simulation.playback.paused:
+                return False, 'only a paused table can be stepped; call set_paused first'
+            if not self._computed.wait_for(lambda: not simulation.computing, STEP_PATIENCE):
+                return False, 'a shot is still being computed; step again once state says it is not'
+            for _ in range(simulation.settings.step_ticks):
+                self._show_next_frame()
+            return True, f'at tick {simulation.playback.tick}'
+
+    def apply(self, settings: Settings) -> None:
+        """Take new settings; what concerns a shot counts from the next strike."""
+        with self._lock:
+            old, self._simulation.settings = self._simulation.settings, settings
+            if settings.table != old.table:
+                self._output.table(settings)
+            if settings.real_time_factor != old.real_time_factor:
+                self._pacer.real_time_factor = settings.real_time_factor
+            self._show_state()
+
+    def stop(self, timeout: float) -> bool:
+        """Send nothing more; return whether the shot being computed ended within `timeout` s."""
+        self._stopping.set()
+        self._playing.join()
+        with self._lock:  # a result may just be being taken over
+            self._simulation.close()
+        return self._worker.stop(timeout)
+
+    @property
+    def _running(self) -> bool:
+        return not self._stopping.is_set() and self._output.is_open()
+
+    def _answer(self, response: Response, job: Job | None) -> Response:
+        self._last_request = time.monotonic()
+        if response.phase is Phase.REJECTED:
+            self._health.rejected(f'{response.code.value}: {response.reason}')
+        self._output.responses([response])
+        self._show_state()
+        if job is not None:
+            self._worker.submit(lambda: self._compute(job))
+        return response
+
+    def _prepare(self) -> None:
+        notice = threading.Timer(COMPILE_NOTICE, self._tell_of_compiling)
+        notice.daemon = True
+        notice.start()
+        try:
+            compile_kernels(self._simulation.settings.table)
+            if self._running:
+                self._output.tell('ready')
+                self.ready.set()
+        except Exception:
+            self._fail('the physics kernels could not be compiled')
+        finally:
+            notice.cancel()
+
+    def _tell_of_compiling(self) -> None:
+        if self._running:
+            self._output.tell(
+                'compiling the physics kernels, on the first run only: this takes about 20 s'
+            )
+
+    def _compute(self, job: Job) -> None:
+        start, rise = time.monotonic(), None
+        try:
+            result = job.run()
+            took = time.monotonic() - start
+            rise = energy_rise(result)
+        except Exception as error:
+            result, took = error, time.monotonic() - start
+        try:
+            with self._lock:
+                self._health.shot(took, rise, job.table.ball_friction == 'report')
+                if self._running:
+                    self._output.responses(self._simulation.computed(job, result))
+                    self._look_ahead()
+                    self._show_state()
+                    self._computed.notify_all()
+        except Exception:
+            self._fail('a shot could not be taken over')
+
+    def _play(self) -> None:
+        just_before = False
+        try:
+            while not self._stopping.is_set():
+                with self._lock:
+                    wait = self._show_due_frames()
+                    if not just_before:
+                        self._show_signs_of_life()
+                        self._look_ahead()
+                time.sleep(self._nap(wait))
+                just_before = HEAD_START < wait <= LONGEST_NAP and not just_before
+        except Exception:
+            self._fail('playback failed')
+
+    def _nap(self, wait: float) -> float:
+        """Return for how long to sleep in s, where the next frame is due in `wait` s."""
+        if wait > 0.0:
+            return min(wait - HEAD_START if wait > HEAD_START else wait, LONGEST_NAP)
+        busy = time.monotonic() - self._last_request < BUSY_PERIOD
+        return BUSY_NAP if busy else SHORTEST_NAP
+
+    def _look_ahead(self) -> None:
+        """Make ready what comes next, where there is time for it."""
+        self._output.prepare(self._simulation.playback.look_ahead())
+
+    def _show_due_frames(self) -> float:
+        """Show what is due; return the seconds until the next frame is, inf while paused."""
+        if self._simulation.playback.paused:
+            return math.inf
+        end = time.monotonic() + LONGEST_BATCH
+        while (wait := self._pacer.wait(self._simulation.moving)) <= 0.0:
+            self._show_next_frame()
+            self._pacer.shown()
+            self._health.frame(self._pacer.lateness)
+            if time.monotonic() > end:
+                return 0.0
+        return wait
+
+    def _show_next_frame(self) -> None:
+        frame, responses = self._simulation.next_frame()
+        self._output.frame(frame)
+        if frame.started or frame.finished:
+            self._show_state()
+            self._output.responses(responses)
+
+    def _show_signs_of_life(self) -> None:
+        now = time.monotonic()
+        if now >= self._next_state:
+            self._show_state(always=True)
+        playback = self._simulation.playback
+        if playback.paused and now >= self._next_clock:
+            self._output.clock(playback.stamp)
+            self._next_clock = max(self._next_clock + PAUSED_CLOCK_PERIOD, now)
+        if now >= self._next_health:
+            self._next_health = now + HEALTH_PERIOD
+            self._show_health(now)
+
+    def _show_health(self, now: float) -> None:
+        stamp, pacer = self._simulation.playback.stamp, self._pacer
+        behind = 0 if self._simulation.playback.paused else pacer.ticks_behind
+        report = self._health.report(now, stamp, pacer.real_time_factor, behind, pacer.slips)
+        self._output.diagnostics(stamp, report)
+
+    def _show_state(self, always: bool = False) -> None:
+        """Send the state, if more of it has changed than the time, or `always`."""
+        simulation = self._simulation
+        state = {
+            'paused': simulation.playback.paused,
+            'moving': simulation.moving,
+            'computing': simulation.computing,
+            'real_time_factor': self._pacer.real_time_factor,
+        }
+        if state == self._shown_state and not always:
+            return
+        self._shown_state = state
+        self._next_state = time.monotonic() + STATE_PERIOD
+        playback = simulation.playback
+        self._output.state({**state, 'tick': playback.tick, 'sim_time': playback.stamp * 1e-9})
+
+    def _fail(self, what: str) -> None:
+        if self._running:  # else it failed because ROS went down in the middle of it
+            self._output.fail(f'{what}:\n{traceback.format_exc()}')

@@ -1,0 +1,143 @@
+"""The command-line client `shot`."""
+
+import os
+import pty
+import subprocess
+import sys
+
+import pytest
+from ros_harness import Process, node_process
+
+from pool_sim_ros.me212.log import format_position, format_shot_head
+from pool_sim_ros.physics import report_table, simulate
+
+QUICK = {'real_time_factor': 20.0}
+
+
+def other_simulator(real_time_factor=0.01):
+    """Start one under another name than the one that most tests share, where shots last long."""
+    names = ['--ros-args', '-r', '__node:=other']
+    return node_process(*names, real_time_factor=real_time_factor)
+
+
+STRIKE_OTHER = ['--velocity', '-1', '0', '--node', 'other']
+PATIENT = ['--timeout', '60']
+
+
+@pytest.fixture(scope='module')
+def simulator(domain):
+    with node_process(**QUICK) as process:
+        yield process
+
+
+def test_shots_are_printed_in_the_form_of_the_log(simulator):
+    table = report_table()
+    with Process('cli.shot', '1', *PATIENT) as shot:
+        assert shot.wait() == 0, shot.stderr
+        accepted, _, log = shot.stdout.partition('\n')
+        assert 'accepted' in accepted and '-4.000' in accepted and 'time_slice' in accepted
+        assert log.startswith(format_shot_head(1, (-4.0, 0.0)))
+        assert '\n        Ball 10: [16.85, 41.25] (in)\n' in log
+        assert log.count('(in)') == len(table.balls)
+        assert '\r' not in shot.stdout and shot.stderr == ''
+    ends = simulate(table, (-4.0, 0.0), integrator='time_slice').final_positions
+    with Process('cli.shot', '--velocity', '-2', '0.5', *PATIENT) as shot:
+        assert shot.wait() == 0, shot.stderr
+        end = simulate(table, (-2.0, 0.5), positions=ends).final_positions
+        assert format_position('C', end[0]) in shot.stdout
+        assert 'integrator event' in shot.stdout
+
+
+def test_a_node_of_another_name_in_a_namespace(domain):
+    names = ['--ros-args', '-r', '__ns:=/hall']
+    with (
+        node_process(*names, '-r', '__node:=left', **QUICK),
+        Process('cli.shot', '3', '--node', 'left', *PATIENT, *names) as shot,
+    ):
+        assert shot.wait() == 0, shot.stderr
+
+
+@pytest.mark.parametrize(
+    ('args', 'words'),
+    [
+        (['5'], 'UNKNOWN_SHOT'),
+        (['--velocity', '99', '0'], 'TOO_FAST'),
+        (['--velocity', '0', '0'], 'BAD_VELOCITY'),
+    ],
+)
+def test_a_rejection_is_one_clear_line_and_status_1(simulator, args, words):
+    with Process('cli.shot', *args, *PATIENT) as shot:
+        assert shot.wait() == 1
+        assert words in shot.stderr and shot.stderr.count('\n') == 1
+        assert shot.stdout == ''
+
+
+def test_no_node_is_one_clear_line_and_status_1(domain):
+    with Process('cli.shot', '1', '--node', '/nobody', '--timeout', '0.2') as shot:
+        assert shot.wait() == 1
+        assert '/nobody' in shot.stderr and shot.stderr.count('\n') == 1
+
+
+def test_a_node_that_dies_in_the_middle_is_one_clear_line_and_status_1(domain):
+    with other_simulator() as node:
+        with Process('cli.shot', *STRIKE_OTHER, '--timeout', '15') as shot:
+            shot.wait_for('accepted')
+            node.signal(9)
+            assert shot.wait() == 1
+            assert 'silent' in shot.stderr and shot.stderr.count('\n') == 1
+
+
+def test_a_node_that_is_restarted_in_the_middle_is_one_clear_line_and_status_1(domain):
+    with other_simulator() as node:
+        with Process('cli.shot', *STRIKE_OTHER, '--timeout', '100') as shot:
+            shot.wait_for('accepted')
+            node.signal(9)
+            node.wait()
+            with other_simulator():
+                assert shot.wait() == 1
+            assert 'restarted' in shot.stderr and shot.stderr.count('\n') == 1
+
+
+def test_ctrl_c_is_one_clear_line(domain):
+    with other_simulator():
+        with Process('cli.shot', *STRIKE_OTHER, *PATIENT) as shot:
+            shot.wait_for('accepted')
+            shot.interrupt()
+            assert shot.wait() == 130
+            assert shot.stderr.count('\n') == 1
+
+
+@pytest.mark.parametrize('args', [[], ['1', '--velocity', '1', '0'], ['one'], ['--velocity', '1']])
+def test_wrong_usage_is_explained(domain, args):
+    with Process('cli.shot', *args) as shot:
+        assert shot.wait() == 2
+        assert 'usage: shot' in shot.stderr and 'Traceback' not in shot.stderr
+
+
+def test_help(domain):
+    with Process('cli.shot', '--help') as shot:
+        assert shot.wait() == 0
+        assert '--velocity' in shot.stdout and '--node' in shot.stdout
+
+
+def test_a_terminal_shows_progress(domain):
+    terminal, slave = pty.openpty()
+    args = ['3', '--node', 'other', *PATIENT]
+    with other_simulator(0.2), Process('cli.shot', *args, stdout=slave) as shot:
+        os.close(slave)
+        written = b''
+        try:
+            while chunk := os.read(terminal, 4096):
+                written += chunk
+        except OSError:  # how a closed terminal ends
+            pass
+        os.close(terminal)
+        assert shot.wait() == 0, shot.stderr
+    assert b'1 ball moves' in written
+    assert b'Ball 10: [19.78, 26.81] (in)' in written
+
+
+def test_the_client_needs_no_physics(domain):
+    code = 'import sys, pool_sim_ros.cli.shot; sys.exit("numba" in sys.modules)'
+    command = [sys.executable, '-c', code]
+    assert subprocess.run(command, timeout=60, check=False).returncode == 0

@@ -1,0 +1,86 @@
+import csv
+import errno
+import io
+import os
+
+import pytest
+
+from pool_sim_ros.me212.log import published_final_positions
+from pool_sim_ros.report.files import OutputError, whole_file, write_text
+from pool_sim_ros.report.positions import format_positions
+
+# The report's Table 1, inches.
+STARTS = {
+    'C': ('66.00', '22.00'),
+    '1': ('40.08', '21.23'),
+    '2': ('17.52', '37.29'),
+    '3': ('12.53', '2.75'),
+    '4': ('10.47', '25.10'),
+    '5': ('27.32', '4.87'),
+    '6': ('16.25', '13.80'),
+    '7': ('7.60', '21.49'),
+    '8': ('10.81', '9.21'),
+    '9': ('26.19', '21.84'),
+    '10': ('19.78', '26.81'),
+}
+
+
+def test_a_file_appears_when_it_is_whole(tmp_path):
+    path = tmp_path / 'a' / 'b' / 'file'
+    with whole_file(path) as part:
+        part.write_text('half')
+        assert not path.exists()
+        part.write_text('whole')
+    assert path.read_text() == 'whole'
+    assert list(path.parent.iterdir()) == [path]
+
+
+@pytest.mark.parametrize('error', [ValueError, KeyboardInterrupt])
+def test_what_goes_wrong_leaves_the_old_file_and_nothing_else(tmp_path, error):
+    path = tmp_path / 'file'
+    path.write_text('old')
+    with pytest.raises(error), whole_file(path) as part:
+        part.write_text('half')
+        raise error
+    assert path.read_text() == 'old'
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_full_disk_is_told_in_one_line(tmp_path):
+    path = tmp_path / 'file'
+    reason = os.strerror(errno.ENOSPC)
+    with pytest.raises(OutputError) as caught, whole_file(path) as part:
+        part.write_text('half')
+        raise OSError(errno.ENOSPC, reason)
+    assert str(caught.value) == f'cannot write {path}: {reason}'
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_in_the_place_of_a_folder_is_told(tmp_path):
+    (tmp_path / 'out').write_text('I am a file')
+    with pytest.raises(OutputError, match='out is not a folder'):
+        write_text(tmp_path / 'out' / 'output.log', 'text')
+    with pytest.raises(OutputError, match='Not a directory'):
+        write_text(tmp_path / 'out' / 'deeper' / 'output.log', 'text')
+    assert (tmp_path / 'out').read_text() == 'I am a file'
+
+
+def test_a_folder_in_the_place_of_a_file_is_told(tmp_path):
+    (tmp_path / 'output.log').mkdir()
+    with pytest.raises(OutputError, match='Is a directory'):
+        write_text(tmp_path / 'output.log', 'text')
+    assert [path.name for path in tmp_path.iterdir()] == ['output.log']
+
+
+def test_positions_have_start_and_end_of_each_ball_in_inches_and_metres(shots):
+    rows = list(csv.DictReader(io.StringIO(format_positions(shots.values()))))
+    assert len(rows) == 44
+    published = published_final_positions()
+    for row in rows:
+        assert (row['start_x_in'], row['start_y_in']) == STARTS[row['ball']]
+        end = float(row['end_x_in']), float(row['end_y_in'])
+        assert end == published[int(row['shot'])][row['ball']]
+        for name in ('start_x', 'start_y', 'end_x', 'end_y'):
+            assert float(row[f'{name}_m']) / 0.0254 == pytest.approx(
+                float(row[f'{name}_in']), abs=0.0051
+            )

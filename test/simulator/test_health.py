@@ -1,0 +1,98 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pool_sim_ros.physics import Ball, Table, report_table, simulate
+from pool_sim_ros.simulator.health import ENERGY_SAMPLES, REASON_LENGTH, Health, energy_rise
+
+
+def report(health, now=10.0, stamp=0, factor=1.0, behind=0, slips=0):
+    return health.report(now, stamp, factor, behind, slips)
+
+
+def test_the_speed_is_sim_time_over_wall_time_since_the_last_report():
+    health = Health()
+    assert report(health, 5.0, 0).values['achieved speed (sim s / s)'] == 'unknown'
+    later = report(health, 7.0, 5_000_000_000)
+    assert float(later.values['achieved speed (sim s / s)']) == 2.5
+
+
+def test_the_worst_lateness_is_that_since_the_last_report():
+    health = Health()
+    for lateness in (0.001, 0.004, 0.002):
+        health.frame(lateness)
+    assert float(report(health).values['worst frame lateness (ms)']) == 4.0
+    health.frame(0.003)
+    assert float(report(health).values['worst frame lateness (ms)']) == 3.0
+
+
+def test_rejections_are_counted_and_the_last_one_shown_in_brief():
+    health = Health()
+    health.rejected('first')
+    health.rejected('x' * 10_000)
+    values = report(health).values
+    assert values['rejected commands'] == '2'
+    assert values['last rejection'] == 'x' * REASON_LENGTH
+
+
+@pytest.mark.parametrize(
+    ('rise', 'may_rise', 'words', 'warned'),
+    [
+        (0.0, False, 'never rose', False),
+        (1e-14, False, 'never rose', False),
+        (0.01, True, 'report', False),
+        (0.01, False, 'rose', True),
+        (None, False, 'no result', False),
+    ],
+)
+def test_the_energy_check_warns_where_the_law_does_not_let_it_rise(rise, may_rise, words, warned):
+    health = Health()
+    assert report(health).values['energy check'] == 'no shot yet'
+    health.shot(0.25, rise, may_rise)
+    told = report(health)
+    assert words in told.values['energy check']
+    assert told.values['compute time of the last shot (s)'] == '0.25'
+    assert bool(told.warning) == warned
+
+
+def test_a_slip_is_warned_of_once():
+    health = Health()
+    assert report(health, slips=3).warning == ''
+    assert 'slipped' in report(health, slips=4).warning
+    assert report(health, slips=4).warning == ''
+
+
+def test_energy_never_rises_under_coulomb_friction():
+    table = replace(report_table(), ball_friction='coulomb')
+    for angle in np.linspace(0.0, 6.0, 13):
+        shot = simulate(table, (4.0 * np.cos(angle), 4.0 * np.sin(angle)))
+        assert energy_rise(shot) <= 1e-12
+
+
+class Recharged:
+    """A trajectory of two balls whose kinetic energies, in J, are given at each event."""
+
+    def __init__(self, energies):
+        balls = [Ball(str(k), 2.0, 0.1, (0.3 + k, 0.5)) for k in range(2)]
+        self.table = Table(2.0, 1.0, balls)
+        self.events = np.zeros(len(energies) - 1, [('t', 'f8')])
+        self.events['t'] = np.arange(1, len(energies))
+        self._speeds = np.sqrt(energies)
+
+    def velocities(self, times):
+        found = np.zeros((len(times), 2, 2))
+        found[:, 1, 0] = self._speeds[np.asarray(times, int)]
+        return found
+
+
+def test_a_rise_of_the_energy_is_relative_to_the_strike_and_from_the_least():
+    assert energy_rise(Recharged([8.0, 6.0, 2.0, 3.0, 4.0, 1.0])) == pytest.approx(0.25)
+    assert energy_rise(Recharged([8.0, 6.0, 2.0])) == 0.0
+    assert energy_rise(Recharged([0.0])) == 0.0
+
+
+def test_a_long_shot_is_sampled():
+    energies = np.linspace(9.0, 1.0, 20 * ENERGY_SAMPLES)
+    energies[10 * ENERGY_SAMPLES :] += 4.0
+    assert energy_rise(Recharged(energies)) == pytest.approx(4.0 / 9.0, rel=1e-2)
