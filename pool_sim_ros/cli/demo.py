@@ -13,17 +13,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import IO
 
-from pool_sim_ros.console.progress import ProgressLine
-from pool_sim_ros.me212.log import (
+from pool_sim_ros.console import ProgressLine
+from pool_sim_ros.me212 import (
+    attitude_to_nearest,
     format_aim,
     format_position,
     format_shot_head,
+    nearest_ball,
     published_final_positions,
 )
-from pool_sim_ros.me212.shots import attitude_to_nearest, nearest_ball
-from pool_sim_ros.ros.client import ShotClient, SimulatorError
-from pool_sim_ros.ros.process import INTERRUPTED, init_ros
-from pool_sim_ros.simulator.table_json import table_from_json
+from pool_sim_ros.ros import INTERRUPTED, ShotClient, SimulatorError, init_ros
+from pool_sim_ros.simulator import table_from_json
 
 PATIENCE = 300.0
 """Seconds without a sign of the node after which something is wrong: the slowest machine compiles

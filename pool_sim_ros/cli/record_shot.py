@@ -7,16 +7,17 @@ import sys
 from pathlib import Path
 
 from pool_sim_ros.cli.shot_arguments import ShotParser
-from pool_sim_ros.console.progress import ProgressLine
-from pool_sim_ros.ros.client import ShotClient, SimulatorError
-from pool_sim_ros.ros.process import (
+from pool_sim_ros.console import ProgressLine
+from pool_sim_ros.ros import (
     INTERRUPTED,
     NAME_ERRORS,
+    Recorder,
+    ShotClient,
+    SimulatorError,
     StartupError,
     init_ros,
     without_ros_args,
 )
-from pool_sim_ros.ros.recorder import Recorder
 
 
 def main(args: list[str] | None = None) -> int:
@@ -56,7 +57,7 @@ def _check(out: Path) -> None:
 
 
 def _record(context, options: argparse.Namespace) -> None:
-    from pool_sim_ros.ros.mcap import write_bag
+    from pool_sim_ros.ros import write_bag
 
     line = ProgressLine(sys.stdout)
     client = ShotClient(context, options.node)

@@ -11,20 +11,18 @@ from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.node import Node
 
-from pool_sim_ros.ros import interface
-from pool_sim_ros.ros.process import (
+from pool_sim_ros.ros import (
     INTERRUPTED,
     NAME_ERRORS,
+    Publishers,
     StartupError,
+    digests,
     init_ros,
+    interface,
     shut_down_on_signals,
     without_ros_args,
 )
-from pool_sim_ros.ros.publishers import Publishers
-from pool_sim_ros.simulator.command_log import LogError, read_log
-from pool_sim_ros.simulator.pacer import Pacer
-from pool_sim_ros.simulator.replay import digests, replay
-from pool_sim_ros.simulator.settings import Settings
+from pool_sim_ros.simulator import LogError, Pacer, Settings, read_log, replay_frames
 
 NAP = 0.05
 """Seconds after which to look up, at the latest, whether to go on."""
@@ -40,7 +38,7 @@ def main(args: list[str] | None = None) -> int:
         options = _parser().parse_args(without_ros_args(args))
         settings, commands = read_log(options.file)
         if options.digest:
-            for topic, digest in digests(settings, replay(settings, commands)).items():
+            for topic, digest in digests(settings, replay_frames(settings, commands)).items():
                 print(f'{digest}  {topic}')
             return 0
         context = init_ros(args)
@@ -67,7 +65,7 @@ def _play(
         while options.wait and context.ok() and not output.is_read():
             time.sleep(NAP)
         pacer = Pacer(settings.publish_rate, options.speed)
-        for frame in replay(settings, commands):
+        for frame in replay_frames(settings, commands):
             while context.ok() and (wait := pacer.wait(moving=True)) > 0.0:
                 time.sleep(min(wait, NAP))
             if not context.ok():

@@ -6,12 +6,13 @@ import argparse
 import sys
 
 from pool_sim_ros.cli.shot_arguments import ShotParser
-from pool_sim_ros.console.progress import ProgressLine
-from pool_sim_ros.me212.log import format_shot
-from pool_sim_ros.ros.client import ShotClient, SimulatorError
-from pool_sim_ros.ros.process import (
+from pool_sim_ros.console import ProgressLine
+from pool_sim_ros.me212 import format_shot
+from pool_sim_ros.ros import (
     INTERRUPTED,
     NAME_ERRORS,
+    ShotClient,
+    SimulatorError,
     StartupError,
     init_ros,
     without_ros_args,

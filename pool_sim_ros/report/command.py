@@ -10,7 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pool_sim_ros.me212.shots import SHOT_NUMBERS
+from pool_sim_ros.me212 import SHOT_NUMBERS
 from pool_sim_ros.report.errors import ReportError
 from pool_sim_ros.report.interrupts import Interrupts
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from tqdm import tqdm
 
     from pool_sim_ros.report.played import PlayedShot
-    from pool_sim_ros.simulator.settings import Settings
+    from pool_sim_ros.simulator import Settings
 
 INTERRUPTED = 130
 """Exit status after Ctrl-C, as shells have it."""
@@ -44,7 +44,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _make(options: argparse.Namespace, interrupts: Interrupts) -> None:
-    from pool_sim_ros.me212.log import format_log
+    from pool_sim_ros.me212 import format_log
     from pool_sim_ros.report.files import write_text
     from pool_sim_ros.report.played import aim, log_remark, play_shots, verdict
     from pool_sim_ros.report.positions import format_positions
@@ -128,7 +128,7 @@ def _checking(steps: Iterable, interrupts: Interrupts) -> Iterator:
 
 def _settings(options: argparse.Namespace) -> Settings:
     from pool_sim_ros.report.table_file import read_settings
-    from pool_sim_ros.simulator.settings import build_settings, default_values
+    from pool_sim_ros.simulator import build_settings, default_values
 
     settings = read_settings(options.table) if options.table else build_settings(default_values())
     if options.integrator:

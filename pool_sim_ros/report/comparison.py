@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pool_sim_ros.me212.shots import cue_velocity
+from pool_sim_ros.me212 import cue_velocity
 from pool_sim_ros.physics import INCH, Table, Trajectory, simulate
 
 SLICES = (1e-4, 1e-5, 2e-6, 1e-6)

@@ -7,7 +7,7 @@ from itertools import count
 
 import numpy as np
 
-from pool_sim_ros.me212.shots import nearest_ball
+from pool_sim_ros.me212 import nearest_ball
 from pool_sim_ros.physics import EventKind, Table
 from pool_sim_ros.report.comparison import (
     SLICES,

@@ -8,8 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import pool_sim_ros
-from pool_sim_ros.me212.log import inches
-from pool_sim_ros.me212.shots import nearest_ball
+from pool_sim_ros.me212 import inches, nearest_ball
 from pool_sim_ros.physics import INCH, EventKind
 from pool_sim_ros.report.comparison import Comparison
 from pool_sim_ros.report.comparison_page import comparison_section
@@ -17,7 +16,7 @@ from pool_sim_ros.report.markup import ball_name, figure, fill, number, pair, sh
 from pool_sim_ros.report.mathml import with_formulae
 from pool_sim_ros.report.part_one import example
 from pool_sim_ros.report.played import PlayedShot, verdict
-from pool_sim_ros.simulator.settings import Settings
+from pool_sim_ros.simulator import Settings
 
 LAYOUT_FIGURE = 3
 """Number of the figure that shows the layout; two for each shot follow, as in the report."""

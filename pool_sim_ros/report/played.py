@@ -7,12 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pool_sim_ros.me212.log import inches, published_final_positions
-from pool_sim_ros.me212.printed import is_report_table
-from pool_sim_ros.me212.shots import attitude_to_nearest, cue_velocity, nearest_ball
+from pool_sim_ros.me212 import (
+    attitude_to_nearest,
+    cue_velocity,
+    inches,
+    is_report_table,
+    nearest_ball,
+    published_final_positions,
+)
 from pool_sim_ros.physics import Table, Trajectory, simulate
 from pool_sim_ros.report.errors import ReportError
-from pool_sim_ros.simulator.settings import Settings
+from pool_sim_ros.simulator import Settings
 
 
 class ShotError(ReportError):

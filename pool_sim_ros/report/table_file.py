@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from pool_sim_ros.report.errors import ReportError
-from pool_sim_ros.simulator.settings import ParameterError, Settings, build_settings, values_from
+from pool_sim_ros.simulator import ParameterError, Settings, build_settings, values_from
 
 
 class TableFileError(ReportError):

@@ -15,7 +15,7 @@ from std_msgs.msg import Float64MultiArray, String
 
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.process import client_node
-from pool_sim_ros.simulator.shot_request import Phase
+from pool_sim_ros.simulator import Phase
 
 NAP = 0.1
 """Seconds at most between two looks at what was waited for."""

@@ -11,7 +11,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from pool_sim_ros.physics import Table
 from pool_sim_ros.ros import interface
 from pool_sim_ros.ros.markers import Markers
-from pool_sim_ros.simulator.playback import Frame
+from pool_sim_ros.simulator import Frame
 
 LATCHED_CHANGES = 5
 """Messages about what moves that a late viewer is sent. With the table they must fit into the ten

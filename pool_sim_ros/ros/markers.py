@@ -11,7 +11,7 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from pool_sim_ros.physics import Table
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS
+from pool_sim_ros.simulator import COLLISION_COLUMNS
 
 CLOTH = (0.11, 0.42, 0.26)
 WOOD = (0.42, 0.25, 0.13)

@@ -12,8 +12,7 @@ from geometry_msgs.msg import Pose, PoseArray, Twist, Vector3
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension, String
 
-from pool_sim_ros.simulator.health import Report
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS, VELOCITY_COLUMNS
+from pool_sim_ros.simulator import COLLISION_COLUMNS, VELOCITY_COLUMNS, Report
 
 _SECOND_NS = 1_000_000_000
 

@@ -13,7 +13,7 @@ from rcl_interfaces.msg import (
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from pool_sim_ros.simulator.settings import (
+from pool_sim_ros.simulator import (
     PARAMETERS,
     Change,
     ParameterError,

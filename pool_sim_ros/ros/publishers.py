@@ -10,11 +10,16 @@ from rclpy.node import Node
 
 from pool_sim_ros.ros import cdr, interface, messages
 from pool_sim_ros.ros.marker_publisher import MarkerPublisher
-from pool_sim_ros.simulator.health import Report
-from pool_sim_ros.simulator.playback import Block, Frame
-from pool_sim_ros.simulator.settings import Settings
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS, VELOCITY_COLUMNS, Response
-from pool_sim_ros.simulator.table_json import table_to_json
+from pool_sim_ros.simulator import (
+    COLLISION_COLUMNS,
+    VELOCITY_COLUMNS,
+    Block,
+    Frame,
+    Report,
+    Response,
+    Settings,
+    table_to_json,
+)
 
 
 class Publishers:

@@ -24,10 +24,15 @@ from pool_sim_ros.ros.process import (
     without_ros_args,
 )
 from pool_sim_ros.ros.publishers import Publishers
-from pool_sim_ros.simulator.command_log import CommandLog, LogError
-from pool_sim_ros.simulator.runner import Runner
-from pool_sim_ros.simulator.settings import PARAMETERS, ParameterError, Settings
-from pool_sim_ros.simulator.shot_request import Response
+from pool_sim_ros.simulator import (
+    PARAMETERS,
+    CommandLog,
+    LogError,
+    ParameterError,
+    Response,
+    Runner,
+    Settings,
+)
 
 LOG_PERIOD = 0.1
 """Seconds between two warnings in the log; the responses are never held back."""

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
-from pool_sim_ros.me212.shots import cue_velocity
+from pool_sim_ros.me212 import cue_velocity
 from pool_sim_ros.physics import check_layout
-from pool_sim_ros.ros.cdr import PosesWriter, RowsWriter
 from pool_sim_ros.simulator.command_log import LogError
 from pool_sim_ros.simulator.job import make_job
 from pool_sim_ros.simulator.playback import Frame, Motion, Playback
@@ -21,10 +17,9 @@ from pool_sim_ros.simulator.settings import (
     build_settings,
     values_of,
 )
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS, VELOCITY_COLUMNS
 
 
-def replay(settings: Settings, commands: Sequence[dict]) -> Iterator[Frame]:
+def replay_frames(settings: Settings, commands: Sequence[dict]) -> Iterator[Frame]:
     """Play a session again.
 
     Parameters
@@ -58,20 +53,6 @@ def replay(settings: Settings, commands: Sequence[dict]) -> Iterator[Frame]:
     yield playback.next_frame()
     while playback.motion is not Motion.AT_REST:
         yield playback.next_frame()
-
-
-def digests(settings: Settings, frames: Iterator[Frame]) -> dict[str, str]:
-    """Return, by topic, the SHA-256 of all that is sent on it while these frames are shown."""
-    poses = PosesWriter(settings.frame_id, settings.table.radii.tolist())
-    velocities = RowsWriter('ball', VELOCITY_COLUMNS)
-    collisions = RowsWriter('collision', COLLISION_COLUMNS)
-    sums = {name: hashlib.sha256() for name in ('ball_poses', 'ball_velocities', 'collisions')}
-    for frame in frames:
-        sums['ball_poses'].update(*poses.write([frame.stamp], frame.positions[np.newaxis]))
-        sums['ball_velocities'].update(*velocities.write(frame.velocities[np.newaxis]))
-        if len(frame.collisions):
-            sums['collisions'].update(*collisions.write(frame.collisions[np.newaxis]))
-    return {name: digest.hexdigest() for name, digest in sums.items()}
 
 
 class _Session:

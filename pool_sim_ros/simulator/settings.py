@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from pool_sim_ros.me212.printed import deviations
+from pool_sim_ros.me212 import deviations
 from pool_sim_ros.physics import (
     BALL_FRICTION_LAWS,
     INTEGRATORS,

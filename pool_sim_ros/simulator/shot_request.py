@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from enum import Enum
 
-from pool_sim_ros.me212.shots import SHOT_NUMBERS
+from pool_sim_ros.me212 import SHOT_NUMBERS
 
 MAX_REQUEST_LENGTH = 4096
 """Characters of a request. The longest sensible one has about 250; parsing stays cheap."""

@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pool_sim_ros.me212.log import inches
-from pool_sim_ros.me212.shots import cue_velocity
+from pool_sim_ros.me212 import cue_velocity, inches
 from pool_sim_ros.physics import Trajectory, check_layout
 from pool_sim_ros.simulator.command_log import CommandLog
 from pool_sim_ros.simulator.job import Job, make_job

@@ -13,9 +13,7 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.ros.process import client_node
-from pool_sim_ros.ros.spin_thread import SpinThread
+from pool_sim_ros.ros import SpinThread, client_node, interface, messages
 from pool_sim_ros.web_view.poses import LatestPoses
 
 PATIENCE = 6.0

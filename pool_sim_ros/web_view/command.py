@@ -9,8 +9,7 @@ import sys
 
 from rclpy.context import Context
 
-from pool_sim_ros.ros import interface
-from pool_sim_ros.ros.process import NAME_ERRORS, StartupError, init_ros, without_ros_args
+from pool_sim_ros.ros import NAME_ERRORS, StartupError, init_ros, interface, without_ros_args
 
 HOST, PORT = '127.0.0.1', 8080
 

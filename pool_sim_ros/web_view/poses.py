@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from rclpy.context import Context
 
-from pool_sim_ros.ros import interface
-from pool_sim_ros.ros.process import client_node
+from pool_sim_ros.ros import client_node, interface
 
 
 class LatestPoses:

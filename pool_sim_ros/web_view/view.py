@@ -9,11 +9,10 @@ from dataclasses import asdict
 import numpy as np
 from rclpy.context import Context
 
-from pool_sim_ros.me212.log import published_final_positions
+from pool_sim_ros.me212 import published_final_positions
 from pool_sim_ros.physics import Table, compile_kernels
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS, Phase
-from pool_sim_ros.simulator.table_json import table_from_json
+from pool_sim_ros.simulator import COLLISION_COLUMNS, Phase, table_from_json
 from pool_sim_ros.web_view.bridge import Bridge, NoAnswerError
 from pool_sim_ros.web_view.commands import Command, parse_command
 from pool_sim_ros.web_view.frames import frame_positions, page_frame

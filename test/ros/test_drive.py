@@ -14,7 +14,7 @@ from ros_harness import Observer, Process, node_process, start_node
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.simulator.command_log import read_log
-from pool_sim_ros.simulator.replay import replay
+from pool_sim_ros.simulator.replay import replay_frames
 from pool_sim_ros.simulator.settings import build_settings, values_from
 from pool_sim_ros.simulator.table_json import table_from_json
 
@@ -267,7 +267,7 @@ def test_a_session_is_replayed_with_the_same_bytes_on_the_topics(ros, tmp_path):
         ros.spin_until(reader.matched, 'the reader')
         for fields in ({'shot': 1}, {'velocity': [-3.3, 0.7]}, {'shot': 4}):
             observer.wait_for_phase(observer.ask(**fields), 'done')
-        wanted = sum(len(frame.collisions) > 0 for frame in replay(*read_log(log)))
+        wanted = sum(len(frame.collisions) > 0 for frame in replay_frames(*read_log(log)))
         ros.spin_until(lambda: len(reader.heard['collisions']) == wanted, 'all contacts')
         process.interrupt()
         assert process.wait() == 0

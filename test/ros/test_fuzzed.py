@@ -107,7 +107,12 @@ def test_garbage_in_place_of_requests_to_services_ends_nothing(victim, seed):
         package = kind.__module__.split('.')[0]
         names += [f'pool_sim/{name}', f'{package}::srv::dds_::{kind.__name__}_Request_']
     sender = subprocess.Popen(
-        [sys.executable, Path(__file__).parents[1] / 'support' / 'garbage_requests.py', str(seed), *names]
+        [
+            sys.executable,
+            Path(__file__).parents[1] / 'support' / 'garbage_requests.py',
+            str(seed),
+            *names,
+        ]
     )
     while sender.poll() is None:
         is_served(observer)
@@ -182,6 +187,8 @@ def test_no_parameter_value_ends_anything(victim, name, value):
         [result] = future.result().results
         assert result.successful or result.reason
     is_served(observer)
+
+GARBAGE = Path(__file__).parents[1] / 'support' / 'garbage_requests.py'
 
 
 def _parameter_client(node, _made={}):  # noqa: B006 - one client for all

@@ -9,8 +9,9 @@ import pytest
 from fakes import Recorder
 from waiting import wait_until
 
+from pool_sim_ros.ros.digest import digests
 from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
-from pool_sim_ros.simulator.replay import digests, replay
+from pool_sim_ros.simulator.replay import replay_frames
 from pool_sim_ros.simulator.runner import Runner
 from pool_sim_ros.simulator.settings import build_settings, default_values, values_of
 from pool_sim_ros.simulator.shot_request import Phase
@@ -89,7 +90,7 @@ def test_a_session_is_replayed_bit_for_bit(tmp_path):
         'shot', 'reset', 'end',
     ]  # fmt: skip
     assert sum(len(frame.collisions) for frame in recorded) > 20
-    assert_same(list(replay(settings, commands)), recorded)
+    assert_same(list(replay_frames(settings, commands)), recorded)
 
 
 def test_what_is_rejected_overtaken_or_too_long_leaves_no_line(tmp_path):
@@ -107,7 +108,7 @@ def test_what_is_rejected_overtaken_or_too_long_leaves_no_line(tmp_path):
     recorded = record(log, SETTINGS, play)
     settings, commands = read_log(log)
     assert [command['command'] for command in commands] == ['strike', 'end']
-    assert_same(list(replay(settings, commands)), recorded)
+    assert_same(list(replay_frames(settings, commands)), recorded)
 
 
 def test_of_many_resets_in_a_tick_one_line_is_left(tmp_path):
@@ -128,7 +129,7 @@ def test_after_a_kill_the_last_shot_is_played_to_its_end(tmp_path):
     recorded = record(log, SETTINGS, lambda *args: strike(*args, -4.0, 0.1))
     lines = log.read_text().splitlines(keepends=True)
     log.write_text(''.join(lines[:-1]) + '{"tick": 99999, "comma')
-    played = list(replay(*read_log(log)))
+    played = list(replay_frames(*read_log(log)))
     assert_same(played, recorded[: len(played)])
     assert not played[-1].velocities.any()
 
@@ -197,7 +198,7 @@ def test_a_wrong_line_is_named_in_one_line(tmp_path, lines, words):
     log.write_text(''.join(f'{text}\n' for text in texts))
     with pytest.raises(LogError) as error:
         settings, commands = read_log(log)
-        for _ in replay(settings, commands):
+        for _ in replay_frames(settings, commands):
             pass
     assert '\n' not in str(error.value)
     for word in words:

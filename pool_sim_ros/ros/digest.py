@@ -1,0 +1,25 @@
+"""What a session sends on each topic, as one number."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+
+import numpy as np
+
+from pool_sim_ros.ros.cdr import PosesWriter, RowsWriter
+from pool_sim_ros.simulator import COLLISION_COLUMNS, VELOCITY_COLUMNS, Frame, Settings
+
+
+def digests(settings: Settings, frames: Iterator[Frame]) -> dict[str, str]:
+    """Return, by topic, the SHA-256 of all that is sent on it while these frames are shown."""
+    poses = PosesWriter(settings.frame_id, settings.table.radii.tolist())
+    velocities = RowsWriter('ball', VELOCITY_COLUMNS)
+    collisions = RowsWriter('collision', COLLISION_COLUMNS)
+    sums = {name: hashlib.sha256() for name in ('ball_poses', 'ball_velocities', 'collisions')}
+    for frame in frames:
+        sums['ball_poses'].update(*poses.write([frame.stamp], frame.positions[np.newaxis]))
+        sums['ball_velocities'].update(*velocities.write(frame.velocities[np.newaxis]))
+        if len(frame.collisions):
+            sums['collisions'].update(*collisions.write(frame.collisions[np.newaxis]))
+    return {name: digest.hexdigest() for name, digest in sums.items()}
