@@ -1,7 +1,7 @@
 """A table over time: requests in, responses and frames out. No ROS, and no clock but the pacer's.
 
 `settings` are the parameters, `shot_request` what is asked and answered. `simulation` plays it
-tick by tick with `playback`, and `runner` has the threads. `command_log` and `replay` play a session
+tick by tick with `playback`; `runner` has the threads. `command_log` and `replay` play a session
 again.
 """
 
