@@ -55,7 +55,7 @@ class Chunk:
 
     def play(self, every: int) -> Chunk:
         """Play and check all shots, and one in `every` of them whole."""
-        finals, durations, counts = simulate_many(self.table, self.velocities)
+        finals, durations, counts = simulate_many(self.table, self.velocities)[:3]
         self.events, self.most_events = int(counts.sum()), int(counts.max())
         faults = dict(self._faults_at_the_end(finals, durations, counts))
         for k in range(-self.first % every, len(finals), every):

@@ -257,19 +257,19 @@ def time_to_moving_ball(position_a, velocity_a, position_b, velocity_b, reach, d
 
 
 def first_in_the_way(balls, position, direction, radius, reach):
-    """Return the way to the first resting ball and its number; `reach` and -1 for none."""
+    """Return the distance to the first resting ball and its number; `reach` and -1 for none."""
     best = reach, -1
     for k, ball in enumerate(balls):
-        if ball['speed'] > 0.0:
+        if ball['phase'] != 0:
             continue
         dx, dy = ball['x'] - position[0], ball['y'] - position[1]
         along = dx * direction[0] + dy * direction[1]
         aside = dx * direction[1] - dy * direction[0]
         touch = radius + ball['radius']
         if along > 0.0 and abs(aside) < touch:
-            way = max(0.0, along - math.sqrt(touch**2 - aside**2))
-            if way < best[0]:
-                best = way, k
+            distance = max(0.0, along - math.sqrt(touch**2 - aside**2))
+            if distance < best[0]:
+                best = distance, k
     return best
 
 

@@ -16,6 +16,7 @@ from pool_sim_ros.physics.units import INCH
 
 if TYPE_CHECKING:
     from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
+    from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
     from pool_sim_ros.physics.shots import (
         INTEGRATORS,
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
         simulate,
         simulate_many,
     )
-    from pool_sim_ros.physics.state import EventKind
     from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, Ball, Table
     from pool_sim_ros.physics.trajectory import Trajectory
     from pool_sim_ros.physics.validation import check_layout
@@ -34,7 +34,7 @@ else:
         {
             'BALL_FRICTION_LAWS': 'table',
             'Ball': 'table',
-            'EventKind': 'state',
+            'EventKind': 'log',
             'INTEGRATORS': 'shots',
             'REPORT_TIME_SLICE': 'shots',
             'Table': 'table',

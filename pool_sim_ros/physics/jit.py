@@ -1,21 +1,66 @@
-"""How the compiled functions of this package are compiled."""
+"""How the compiled functions of this package are compiled, and how one is chosen by type."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, TypeVar
 
 import numpy as np
 from numba import njit
+from numba.extending import overload
 
-OPTIONS = {'cache': True, 'error_model': 'numpy', 'nogil': True, '_nrt': False}
-"""Keep what was compiled; divide as numpy does; let other threads run meanwhile. Never `fastmath`:
-results are promised bit for bit.
+OPTIONS = {'error_model': 'numpy', 'nogil': True, '_nrt': False}
+"""Divide as numpy does; let other threads run meanwhile. Never `fastmath`: results are promised bit
+for bit.
 
-Kernels allocate nothing and keep no arrays, so numba's reference counts, which cost the event loop
+Kernels allocate nothing and keep no arrays. So numba's reference counts, which cost the event loop
 half its time, are switched off; an allocation in a kernel does not compile.
 """
 
-kernel = njit(**OPTIONS)
+kernel = njit(cache=True, **OPTIONS)
 """Compile a function that Python calls, or that is long or rarely called."""
 
-inlined = njit(**OPTIONS, forceinline=True)
+inlined = njit(cache=True, forceinline=True, **OPTIONS)
 """Compile a function into those that call it: passing arrays to it would cost more than it does."""
 
 NONE = np.int64(0)
 """How many there are to begin with. Not a literal: for each of those a kernel is compiled anew."""
+
+Function = TypeVar('Function', bound=Callable[..., Any])
+
+
+def chosen_by(parameter: str) -> Callable[[Function], Function]:
+    """Make a function whose implementation is chosen by the type of one of its arguments.
+
+    numba chooses when it compiles, so the choice costs nothing when the code runs. `register` adds
+    an implementation; the decorated function itself has only the signature and the docstring.
+
+    Parameters
+    ----------
+    parameter : str
+        Name of the argument, a named tuple.
+    """
+
+    def decorate(declaration: Function) -> Function:
+        implementations: dict[type, Callable[..., Any]] = {}
+        index = list(inspect.signature(declaration).parameters).index(parameter)
+
+        @wraps(declaration)
+        def call(*args: Any) -> Any:
+            return implementations[type(args[index])](*args)
+
+        def choose(*types: Any) -> Callable[..., Any] | None:
+            return implementations.get(getattr(types[index], 'instance_class', None))
+
+        overload(call, jit_options={**OPTIONS, 'forceinline': True}, strict=False)(choose)
+        call.implementations = implementations  # type: ignore[attr-defined]
+        return call  # type: ignore[return-value]
+
+    return decorate
+
+
+def register(choice: Callable[..., Any], type_: type, implementation: Callable[..., Any]) -> None:
+    """Add the implementation of a `chosen_by` function for one type of named tuple."""
+    choice.implementations[type_] = getattr(implementation, 'py_func', implementation)  # type: ignore[attr-defined]

@@ -3,29 +3,35 @@
 from __future__ import annotations
 
 import math
-import os
-from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Literal, NoReturn, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics import time_slice as time_slicing
-from pool_sim_ros.physics.event_driven import engine as event_driven
-from pool_sim_ros.physics.motion.disc import copied
+from pool_sim_ros.physics.cores import share_out
+from pool_sim_ros.physics.event_driven import copied, play_parts, work_area
+from pool_sim_ros.physics.outcomes import (
+    BAD_LAYOUT,
+    BAD_VELOCITY,
+    TOO_MANY_EVENTS,
+    Ends,
+    Outcomes,
+    ShotTooLong,
+    join_events,
+    new_outcomes,
+)
+from pool_sim_ros.physics.progress import Counter, Progress
 from pool_sim_ros.physics.table import Table
+from pool_sim_ros.physics.tolerances import MAX_SPEED, MOST_EVENTS, MOST_EVENTS_A_BALL
 from pool_sim_ros.physics.trajectory import Trajectory
-from pool_sim_ros.physics.validation import check_layout, number
+from pool_sim_ros.physics.validation import array, check_layout, number
 
-INTEGRATORS = ('event', 'time_slice')
+Integrator = Literal['event', 'time_slice']
+INTEGRATORS: tuple[Integrator, ...] = get_args(Integrator)
 
 REPORT_TIME_SLICE = 1e-6
 """The report's slice in s (Listing 2)."""
-
-MAX_SPEED = 1e6
-"""Of a ball at the start, along each axis, m/s."""
-
-CHUNK = 4096
-"""Shots that one thread takes at a time: long beside handing them out, short beside a million."""
 
 
 def simulate(
@@ -33,9 +39,10 @@ def simulate(
     velocities: ArrayLike,
     *,
     positions: ArrayLike | None = None,
-    integrator: str = 'event',
+    integrator: Integrator = 'event',
     time_slice: float = REPORT_TIME_SLICE,
     until: float | None = None,
+    max_events: int | None = None,
 ) -> Trajectory:
     """Play one shot until all balls rest.
 
@@ -52,6 +59,8 @@ def simulate(
         Slice of the report's integrator, s.
     until : float, optional
         Stop the clock there, s. Required where nothing slows the balls.
+    max_events : int, optional
+        A longer shot is given up; by default 100,000, or 1,000 a ball where that is more.
 
     Returns
     -------
@@ -63,17 +72,28 @@ def simulate(
         For a wrong shape, a value that is not finite or out of range, balls that overlap or lie
         outside, an unknown integrator; and for a shot to which the `report` law of friction gives
         energy without end.
+    ShotTooLong
+        A ValueError, for a shot of more than `max_events`.
     """
-    at_rest, limit = _check(table, positions, integrator, time_slice, until)
-    moving, fastest = _velocities(table, velocities, (1, 2))
-    _check_end(table, fastest, until, integrator, time_slice)
+    limits = _limits(table, integrator, time_slice, until, max_events)
+    moving = _velocities(table, velocities, 1)
+    layout = None if positions is None else _layouts(table, positions)
+    _check_end(table, moving, until, integrator, time_slice)
     if integrator == 'event':
-        trajectory = event_driven.play(table, at_rest, moving, limit)
+        shot = work_area(table).play(moving, layout, limits)
     else:
-        trajectory = time_slicing.play(table, at_rest, moving, time_slice, limit)
-    if math.isnan(trajectory.duration):
-        raise _gains_energy(table, 'this shot')
-    return trajectory
+        shot = time_slicing.play(table, layout, moving, time_slice, limits)
+    if shot.failed:
+        _raise(table, shot.failed, 'this shot', moving, layout, limits[1])
+    return Trajectory(
+        table,
+        shot.final_positions,
+        shot.final_velocities,
+        shot.duration,
+        shot.events,
+        shot.segments,
+        shot.complete,
+    )
 
 
 def simulate_many(
@@ -81,71 +101,109 @@ def simulate_many(
     velocities: ArrayLike,
     *,
     positions: ArrayLike | None = None,
-    integrator: str = 'event',
+    integrator: Integrator = 'event',
     time_slice: float = REPORT_TIME_SLICE,
     until: float | None = None,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Play many shots from one layout on every core; only their ends are kept.
+    max_events: int | None = None,
+    events: bool = False,
+    errors: Literal['raise', 'mark'] = 'raise',
+    threads: int | None = None,
+    progress: Progress = None,
+    out: Outcomes | None = None,
+) -> Outcomes:
+    """Play many shots on every core; only what came of them is kept.
 
     Parameters
     ----------
     table : Table
     velocities : array_like of shape (m, 2) or (m, n, 2)
         For each shot that of the cue ball alone, or of every ball, each component at most 1e6 m/s.
-    positions, integrator, time_slice, until
+    positions : array_like of shape (n, 2) or (m, n, 2), optional
+        Where the balls start instead of their own places, in all shots or shot by shot, m.
+    integrator, time_slice, until, max_events
         As in `simulate`, the same for all shots.
+    events : bool, optional
+        Whether to keep all events.
+    errors : {'raise', 'mark'}, optional
+        What to do about a shot that fails: a layout that cannot be, too many events, energy without
+        end. Raise, naming the shot, or mark it in the outcomes and go on.
+    threads : int, optional
+        At most so many; by default one for each core.
+    progress : bool or callable, optional
+        True shows a bar, where tqdm is installed. A callable is called now and then with the
+        number of shots played and the total.
+    out : Outcomes, optional
+        Arrays to write to, of the right shape and type, for results that are large; its events
+        are not used. Those that are None are made anew.
 
     Returns
     -------
-    finals : ndarray of shape (m, n, 2)
-        Final positions, m.
-    durations : ndarray of shape (m,)
-        s.
-    event_counts : ndarray of shape (m,)
-        Contacts and stops.
+    Outcomes
 
     Raises
     ------
     ValueError
-        As `simulate`.
+        As `simulate`; with ``errors='mark'`` not for single shots, except for their velocities.
 
     Notes
     -----
-    Bit for bit what `simulate` gives one by one.
+    Bit for bit what `simulate` gives one by one, whatever the number of threads.
     """
-    at_rest, limit = _check(table, positions, integrator, time_slice, until)
-    moving, fastest = _velocities(table, velocities, (2, 3))
-    _check_end(table, fastest, until, integrator, time_slice)
+    limits = _limits(table, integrator, time_slice, until, max_events)
+    if errors not in ('raise', 'mark'):
+        raise ValueError(f"errors: {errors!r} must be 'raise' or 'mark'")
+    if threads is not None and not (isinstance(threads, int) and threads >= 1):
+        raise ValueError(f'threads: {threads!r} must be a whole number, 1 or more')
+    moving = _velocities(table, velocities, 2)
     shots = len(moving)
-    finals = np.empty((shots, len(at_rest), 2))
-    durations = np.empty(shots)
-    counts = np.empty(shots, np.int64)
-    ends = finals, durations, counts
-    parts = [slice(first, first + CHUNK) for first in range(0, shots, CHUNK)]
-    left = iter(parts)
-    helpers = min(len(os.sched_getaffinity(0)), len(parts)) - 1
-
-    def play() -> None:
-        if integrator == 'event':
-            event_driven.play_many(table, at_rest, moving, limit, ends, left, helpers < 1)
+    at_rest, layouts = table.balls_at_rest, np.empty((shots, 0, 2))
+    if positions is not None:
+        given = _layouts(table, positions, shots)
+        if given.ndim == 3:
+            layouts = given
         else:
-            time_slicing.play_many(table, at_rest, moving, time_slice, limit, ends, left)
+            check_layout(table, given)
+            at_rest = copied(at_rest)
+            at_rest['x'], at_rest['y'] = given.T
+    _check_end(table, moving, until, integrator, time_slice)
+    outcomes = new_outcomes(shots, len(table.balls), out)
+    ends = Ends(
+        outcomes.finals,
+        outcomes.durations,
+        outcomes.event_counts,
+        outcomes.first_hit,
+        outcomes.failed,
+    )
+    found: dict[int, NDArray[np.void]] | None = {} if events else None
+    counter = Counter(progress, shots)
 
-    if helpers < 1:
-        play()
-    else:
-        with ThreadPoolExecutor(helpers) as pool:
-            helping = [pool.submit(play) for _ in range(helpers)]
-            try:
-                play()
-            finally:
-                list(left)  # interrupted: nobody else goes on either
-        for helper in helping:
-            helper.result()
-    given_up = np.isnan(durations)
-    if given_up.any():
-        raise _gains_energy(table, f'shot {given_up.argmax()}')
-    return finals, durations, counts
+    def play(parts: Any, shared: bool) -> None:
+        if integrator == 'event':
+            play_parts(
+                table, at_rest, (moving, layouts), limits, ends, parts, shared, found, counter.add
+            )
+        else:
+            time_slicing.play_parts(
+                table,
+                at_rest,
+                (moving, layouts),
+                time_slice,
+                limits,
+                ends,
+                parts,
+                found,
+                counter.add,
+            )
+
+    try:
+        share_out(shots, play, threads)
+    finally:
+        counter.close()
+    if errors == 'raise' and outcomes.failed.any():
+        shot = int(np.flatnonzero(outcomes.failed)[0])
+        layout = layouts[shot]
+        _raise(table, outcomes.failed[shot], f'shot {shot}', moving[shot], layout, limits[1])
+    return outcomes if found is None else join_events(outcomes, found)
 
 
 def compile_kernels(table: Table) -> None:
@@ -160,73 +218,115 @@ def compile_kernels(table: Table) -> None:
         simulate_many(table, [(speed, 0.0)], integrator=integrator, time_slice=1e-4, until=1e-3)
 
 
-def _check(table, positions, integrator, time_slice, until):
-    """Return the balls at their places, and the end of the clock; raise ValueError."""
+def _limits(
+    table: Table,
+    integrator: str,
+    time_slice: float,
+    until: float | None,
+    max_events: int | None,
+) -> tuple[float, int]:
+    """Return the end of the clock in s and the most events; raise ValueError."""
     if integrator not in INTEGRATORS:
         raise ValueError(f"integrator: {integrator!r} must be 'event' or 'time_slice'")
-    number('time_slice', time_slice, above=0.0)
-    limit = math.inf if until is None else number('until', until, least=0.0)
-    if positions is None:
-        return table.balls_at_rest, limit
-    n = len(table.balls)
-    places = _array('positions', positions)
-    if places.shape != (n, 2):
-        raise ValueError(f'positions: shape {places.shape} must be ({n}, 2)')
-    check_layout(table, places)
-    at_rest = copied(table.balls_at_rest)
-    at_rest['x'], at_rest['y'] = places.T
-    return at_rest, limit
+    if time_slice is not REPORT_TIME_SLICE:
+        number('time_slice', time_slice, above=0.0)
+    if max_events is None:
+        max_events = max(MOST_EVENTS, MOST_EVENTS_A_BALL * len(table.balls))
+    else:
+        max_events = int(number('max_events', max_events, least=1, most=2**62))
+    return math.inf if until is None else number('until', until, least=0.0), max_events
 
 
-def _velocities(table, velocities, dimensions):
-    """Return velocities as (n or 1, 2), with as many dimensions more as there are shots."""
+def _velocities(table: Table, velocities: ArrayLike, alone: int) -> NDArray[np.float64]:
+    """Return velocities as (n or 1, 2), with a dimension more where there are shots.
+
+    `alone` is how many dimensions those of the cue ball alone have.
+    """
     n = len(table.balls)
-    array = _array('velocities', velocities)
-    alone, all_balls = dimensions
-    if array.ndim == alone and array.shape[-1:] == (2,):
+    moving = array('velocities', velocities)
+    if moving.ndim == alone and moving.shape[-1:] == (2,):
         if table.is_cue.any() and not table.is_cue[0]:
             raise ValueError(
-                f'velocities: shape {array.shape} strikes ball 0, but the cue ball is ball '
+                f'velocities: shape {moving.shape} strikes ball 0, but the cue ball is ball '
                 f'{table.is_cue.argmax()}; give ({n}, 2) of them'
             )
-        array = array[..., np.newaxis, :]
-    elif array.ndim != all_balls or array.shape[-2:] != (n, 2):
+        moving = moving[..., np.newaxis, :]
+    elif moving.ndim != alone + 1 or moving.shape[-2:] != (n, 2):
         shots = '' if alone == 1 else 'm, '
         raise ValueError(
-            f'velocities: shape {array.shape} must be ({shots}2) for the cue ball alone or '
+            f'velocities: shape {moving.shape} must be ({shots}2) for the cue ball alone or '
             f'({shots}{n}, 2)'
         )
-    fastest = float(np.abs(array).max(initial=0.0))
+    if alone == 2:
+        _check_speeds(moving)
+    return _for_kernels(moving)
+
+
+def _check_speeds(velocities: NDArray[np.float64]) -> None:
+    """Raise ValueError where a ball is too fast, or not finite."""
+    fastest = float(np.abs(velocities).max(initial=0.0))
     if not fastest <= MAX_SPEED:
         if not math.isfinite(fastest):
-            raise ValueError(f'velocities: {array[~np.isfinite(array)][0]} is not finite')
+            raise ValueError(f'velocities: {velocities[~np.isfinite(velocities)][0]} is not finite')
         raise ValueError(f'velocities: {fastest:g} m/s must be at most {MAX_SPEED:g}')
-    return np.ascontiguousarray(array), fastest
 
 
-def _check_end(table, fastest, until, integrator, time_slice):
-    """Raise ValueError where balls of up to `fastest` m/s would never come to rest."""
-    if until is not None or fastest == 0.0:
+def _layouts(table: Table, positions: ArrayLike, shots: int | None = None) -> NDArray[np.float64]:
+    """Return a layout, (n, 2), or one for each of so many shots; raise ValueError."""
+    n = len(table.balls)
+    layouts = array('positions', positions)
+    if layouts.shape == (n, 2) or (shots is not None and layouts.shape == (shots, n, 2)):
+        return _for_kernels(layouts)
+    wanted = f'({n}, 2)' if shots is None else f'({n}, 2) for all shots or ({shots}, {n}, 2)'
+    raise ValueError(f'positions: shape {layouts.shape} must be {wanted}')
+
+
+def _for_kernels(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return an array of the one memory layout that the kernels are compiled for."""
+    if values.flags.c_contiguous and values.flags.writeable:
+        return values
+    return np.array(values, order='C')
+
+
+def _check_end(
+    table: Table,
+    velocities: NDArray[np.float64],
+    until: float | None,
+    integrator: str,
+    time_slice: float,
+) -> None:
+    """Raise ValueError where balls would never come to rest."""
+    if until is not None or (integrator == 'event' and table.deceleration > 0.0):
+        return
+    _check_speeds(velocities)
+    fastest = float(np.abs(velocities).max(initial=0.0))
+    if fastest == 0.0:
         return
     if table.deceleration == 0.0:
         raise ValueError('until: None must be a time where mu_ball_surface is 0: nothing ends it')
     # A light ball that a heavy one strikes is faster than either was.
-    if integrator == 'time_slice' and time_slice * table.deceleration < np.spacing(1e3 * fastest):
+    if time_slice * table.deceleration < np.spacing(1e3 * fastest):
         raise ValueError(
             f'time_slice: {time_slice} is too short: a ball at {fastest:g} m/s loses no speed in it'
         )
 
 
-def _gains_energy(table, shot):
-    """Return the error for a shot that was given up, which its duration of NaN says."""
-    return ValueError(
+def _raise(
+    table: Table,
+    failed: int,
+    shot: str,
+    velocities: NDArray[np.float64],
+    layout: NDArray[np.float64] | None,
+    max_events: int,
+) -> NoReturn:
+    """Say why a shot failed."""
+    if failed == BAD_VELOCITY:
+        _check_speeds(velocities)
+    if failed == BAD_LAYOUT and layout is not None:
+        check_layout(table, layout, 'positions' if shot == 'this shot' else f'positions of {shot}')
+    if failed == TOO_MANY_EVENTS:
+        raise ShotTooLong(f'max_events: {shot} has more than {max_events} contacts and stops')
+    raise ValueError(
         f"mu_ball_ball: {table.mu_ball_ball} is too large here: the law 'report' gives {shot} "
         "energy without end; make it smaller, or use the law 'coulomb'"
     )
-
-
-def _array(name, values):
-    try:
-        return np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError(f'{name}: {values!r} is not an array of numbers') from None

@@ -8,7 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from pool_sim_ros.physics.motion.disc import BALL, World
+from pool_sim_ros.physics.boundary import Rectangle
+from pool_sim_ros.physics.motion import DiscTable, balls_at_rest
 from pool_sim_ros.physics.validation import check_layout, number, numbers
 
 BALL_FRICTION_LAWS = ('report', 'coulomb')
@@ -165,29 +166,24 @@ class Table:
         return self.mu_ball_surface * self.gravity
 
     @cached_property
-    def world(self) -> World:
-        """What the kernels know of this table."""
-        return World(
-            self.length,
-            self.width,
-            self.deceleration,
-            self.mu_ball_ball,
-            self.mu_ball_cushion,
-            self.e_cue_ball,
-            self.e_ball_ball,
-            self.e_ball_cushion,
-            self.ball_friction == 'coulomb',
+    def for_kernels(self) -> DiscTable:
+        """What the kernels know of this table; its type chooses how balls move."""
+        return DiscTable(
+            boundary=Rectangle(self.length, self.width),
+            deceleration=self.deceleration,
+            mu_ball_ball=self.mu_ball_ball,
+            mu_ball_cushion=self.mu_ball_cushion,
+            e_cue_ball=self.e_cue_ball,
+            e_ball_ball=self.e_ball_ball,
+            e_ball_cushion=self.e_ball_cushion,
+            coulomb=self.ball_friction == 'coulomb',
+            cue_ball=int(self.is_cue.argmax()) if self.is_cue.any() else -1,
         )
 
     @cached_property
     def balls_at_rest(self) -> np.ndarray:
-        """The kernels' records of the balls where they start, (n,) of `BALL`; read-only."""
-        records = np.zeros(len(self.balls), BALL)
-        records['x'], records['y'] = self.positions.T
-        records['radius'], records['inverse_mass'] = self.radii, 1.0 / self.masses
-        records['is_cue'] = self.is_cue
-        records['contact'] = records['crossing'] = np.inf
-        records['touched'] = -np.inf
+        """The kernels' records of the balls where they start, (n,); read-only."""
+        records = balls_at_rest(self.positions, self.radii, self.masses, self.is_cue)
         records.flags.writeable = False
         return records
 

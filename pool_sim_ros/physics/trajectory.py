@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.jit import kernel
 from pool_sim_ros.physics.table import Table
+from pool_sim_ros.physics.tolerances import PATH_SAG
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,8 +33,9 @@ class Trajectory:
         vector from a to b or into the cushion, zero for a stop; ``speed``: closing speed before
         the contact (m/s).
     segments : structured ndarray
-        The parabolas, in order of time: ``ball``, ``t``, ``x``, ``y``, ``ux``, ``uy`` (unit
-        direction, zero at rest) and ``speed`` from ``t`` on.
+        What each ball does from ``t`` on, in order of time: ``ball``, ``t`` (s), ``x``, ``y`` (m),
+        ``vx``, ``vy`` (m/s) and the constant acceleration ``ax``, ``ay`` (m/s^2), until its next
+        segment. At rest all four are zero.
     complete : bool
         Whether all balls are at rest at the end.
     """
@@ -80,13 +83,18 @@ class Trajectory:
         Returns
         -------
         ndarray of shape (k, 2)
-            m; no point twice in a row, so that a ball that never moves has one.
+            m; straight from each to the next, within 1e-5 m. No point is twice in a row, so that
+            a ball that never moves has one.
         """
         segments = self.segments[self.segments['ball'] == ball]
-        corners = np.column_stack([segments['x'], segments['y']])
-        corners = np.vstack([corners, self.final_positions[ball]])
-        new = np.any(np.diff(corners, axis=0) != 0.0, axis=1)
-        return corners[np.concatenate([[True], new])]
+        ends = np.append(segments['t'][1:], self.duration)
+        points = [
+            _curve(segment, end - segment['t']) for segment, end in zip(segments, ends, strict=True)
+        ]
+        points.append(self.final_positions[np.newaxis, ball])
+        joined = np.concatenate(points)
+        new = np.any(np.diff(joined, axis=0) != 0.0, axis=1)
+        return joined[np.concatenate([[True], new])]
 
     def _look_up(self, times: ArrayLike, what: int) -> np.ndarray:
         asked = np.asarray(times, dtype=float)
@@ -97,7 +105,7 @@ class Trajectory:
         n = len(self.final_positions)
         found = np.empty((len(flat), n, 2))
         first, order = self._by_ball
-        look_up(self.segments, first, order, flat, self.table.deceleration, what, found)
+        look_up(self.segments, first, order, flat, what, found)
         return found if asked.ndim else found[0]
 
     def _check(self, times: np.ndarray) -> None:
@@ -116,9 +124,33 @@ class Trajectory:
         return np.concatenate([[0], np.cumsum(counts)]), order
 
 
+def _curve(segment: np.void, lasts: float) -> NDArray[np.float64]:
+    """Return points on a segment, (k, 2) in m, the first at its start and none at its end."""
+    start = np.array([[segment['x'], segment['y']]])
+    v = np.array([segment['vx'], segment['vy']])
+    a = np.array([segment['ax'], segment['ay']])
+    speed = math.hypot(*v)
+    aside = abs(v[0] * a[1] - v[1] * a[0]) / speed if speed > 0.0 else math.hypot(*a)
+    sag = aside * lasts * lasts / 8.0  # of the whole, seen from its chord
+    if not sag > PATH_SAG:
+        return start
+    t = np.linspace(0.0, lasts, math.ceil(math.sqrt(sag / PATH_SAG)), endpoint=False)[:, np.newaxis]
+    return start + t * (v + 0.5 * t * a)
+
+
 @kernel
-def look_up(segments, first, order, times, deceleration, what, found):
-    """Fill `found`, (k, n, 2), with positions (`what` 0) or velocities (1) at `times`, (k,)."""
+def look_up(
+    segments: NDArray[np.void],
+    first: NDArray[np.int64],
+    order: NDArray[np.int64],
+    times: NDArray[np.float64],
+    what: int,
+    found: NDArray[np.float64],
+) -> None:
+    """Fill `found`, (k, n, 2), with positions (`what` 0) or velocities (1) at `times`, (k,).
+
+    Ball i has the segments ``order[first[i]:first[i + 1]]``, in order of time.
+    """
     for i in range(len(first) - 1):
         for k in range(len(times)):
             low, high = first[i], first[i + 1]
@@ -129,17 +161,13 @@ def look_up(segments, first, order, times, deceleration, what, found):
                 else:
                     high = middle
             segment = segments[order[low]]
-            speed = segment.speed
             elapsed = times[k] - segment.t
-            if deceleration * elapsed > speed:
-                elapsed = speed / deceleration
-            if speed == 0.0:
-                elapsed = 0.0
-            if what == 0:
-                way = elapsed * (speed - 0.5 * deceleration * elapsed)
-                found[k, i, 0] = segment.x + segment.ux * way
-                found[k, i, 1] = segment.y + segment.uy * way
+            if what == 1:
+                found[k, i, 0] = segment.vx + segment.ax * elapsed
+                found[k, i, 1] = segment.vy + segment.ay * elapsed
+            elif segment.vx == 0.0 and segment.vy == 0.0 and segment.ax == 0.0:
+                # At rest, for ever: infinity times nothing is no number.
+                found[k, i, 0], found[k, i, 1] = segment.x, segment.y
             else:
-                now = max(speed - deceleration * elapsed, 0.0)
-                found[k, i, 0] = segment.ux * now
-                found[k, i, 1] = segment.uy * now
+                found[k, i, 0] = segment.x + elapsed * (segment.vx + 0.5 * segment.ax * elapsed)
+                found[k, i, 1] = segment.y + elapsed * (segment.vy + 0.5 * segment.ay * elapsed)

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from pool_sim_ros.physics.boundary import is_outside
 from pool_sim_ros.physics.jit import kernel
+from pool_sim_ros.physics.tolerances import OVERLAP
 
 if TYPE_CHECKING:
     from pool_sim_ros.physics.table import Table
-
-OVERLAP = 1e-9
-"""Overlap in m that is taken for touching: a thousand times what rounding makes, and unseen."""
 
 
 def number(
@@ -52,7 +52,15 @@ def numbers(
     return tuple(number(name, item, least, most) for item in items)
 
 
-def check_layout(table: Table, positions: np.ndarray, name: str = 'positions') -> None:
+def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as an array of floats; raise ValueError, naming it, where it is none."""
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f'{name}: {values!r} is not an array of numbers') from None
+
+
+def check_layout(table: Table, positions: NDArray[np.float64], name: str = 'positions') -> None:
     """Raise ValueError, naming the ball, where one is outside, in another or not finite.
 
     Parameters
@@ -63,18 +71,30 @@ def check_layout(table: Table, positions: np.ndarray, name: str = 'positions') -
         m.
     name : str, optional
         What the positions are called in the message.
+
+    Raises
+    ------
+    ValueError
     """
-    size = table.length, table.width
-    order = np.argsort(positions[:, 0])
-    i, j = first_fault(positions, table.radii, *size, order)
+    i, j = _fault(table, positions)
     if i >= 0:
-        fault = describe_fault(positions, table.radii, *size, table.labels, i, j)
-        raise ValueError(f'{name}: {fault}')
+        raise ValueError(f'{name}: {describe_fault(table, positions, i, j)}')
 
 
-def describe_fault(positions, radii, length, width, labels, i, j) -> str:
+def is_bad(table: Table, positions: NDArray[np.float64]) -> bool:
+    """Return whether `check_layout` would raise."""
+    return _fault(table, positions)[0] >= 0
+
+
+def _fault(table: Table, positions: NDArray[np.float64]) -> tuple[int, int]:
+    order = np.argsort(positions[:, 0])
+    return first_fault(positions, table.radii, table.for_kernels.boundary, order)
+
+
+def describe_fault(table: Table, positions: NDArray[np.float64], i: int, j: int) -> str:
     """Say in one line what `first_fault` found."""
     x, y = positions[i]
+    labels, radii = table.labels, table.radii
     if j >= 0:
         depth = radii[i] + radii[j] - np.hypot(*(positions[j] - positions[i]))
         return f'ball {labels[i]!r} and ball {labels[j]!r} overlap by {depth:.3g} m'
@@ -82,25 +102,28 @@ def describe_fault(positions, radii, length, width, labels, i, j) -> str:
         return f'ball {labels[i]!r} is at ({x}, {y}), which is not finite'
     return (
         f'ball {labels[i]!r} of radius {radii[i]:g} m is at ({x:g}, {y:g}) m, outside the table of '
-        f'{length:g} x {width:g} m'
+        f'{table.length:g} x {table.width:g} m'
     )
 
 
 @kernel
-def first_fault(positions, radii, length, width, order):
+def first_fault(
+    positions: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    boundary: Any,
+    order: NDArray[np.int64],
+) -> tuple[int, int]:
     """Return (i, -1) for a ball outside, (i, j) for two that overlap, (-1, -1) for none.
 
-    Sweeps along x, in which `order` sorts the balls, so that a large table costs little.
+    Sweeps along x, in which `order`, (n,), sorts the balls, so that a large table costs little.
+    Positions are (n, 2) and radii (n,), in m.
     """
     n = len(positions)
     widest = 0.0
     for i in range(n):
-        x, y, r = positions[i, 0], positions[i, 1], radii[i]
-        inside_x = r - OVERLAP <= x <= length - r + OVERLAP
-        inside_y = r - OVERLAP <= y <= width - r + OVERLAP
-        if not (inside_x and inside_y):
+        if is_outside(boundary, positions[i, 0], positions[i, 1], radii[i], OVERLAP):
             return i, -1
-        widest = max(widest, r)
+        widest = max(widest, radii[i])
     for k in range(n):
         i = order[k]
         for m in range(k + 1, n):

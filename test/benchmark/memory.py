@@ -31,7 +31,8 @@ def main() -> None:
     PEAK_RESET.write_text('5')
     before = memory('VmRSS')
     results = simulate_many(table, velocities, **options)
-    print(memory('VmHWM') - before - sum(result.nbytes for result in results))
+    own = results.finals, results.durations, results.event_counts, results.first_hit, results.failed
+    print(memory('VmHWM') - before - sum(array.nbytes for array in own))
 
 
 def memory(name: str) -> int:

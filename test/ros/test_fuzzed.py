@@ -188,6 +188,7 @@ def test_no_parameter_value_ends_anything(victim, name, value):
         assert result.successful or result.reason
     is_served(observer)
 
+
 GARBAGE = Path(__file__).parents[1] / 'support' / 'garbage_requests.py'
 
 

@@ -4,16 +4,18 @@ All take and return velocities in m/s; a unit normal points from the first ball 
 from the ball into the cushion, and the tangent is the normal turned left by a right angle.
 """
 
+from __future__ import annotations
+
+from typing import Any
+
 import numpy as np
 
 from pool_sim_ros.physics.jit import inlined
-
-NO_SLIP = 1e-10
-"""Slip, as a part of the change of normal speed, that is taken for rounding of a head-on hit."""
+from pool_sim_ros.physics.tolerances import NO_SLIP
 
 
 @inlined
-def sign(value):
+def sign(value: float) -> float:
     """Return 1, 0 or -1, as MATLAB's sign does."""
     if value > 0.0:
         return 1.0
@@ -23,21 +25,21 @@ def sign(value):
 
 
 @inlined
-def restitution(world, a_is_cue, b_is_cue):
+def restitution(table: Any, a_is_cue: int, b_is_cue: int) -> float:
     """Return the coefficient of restitution of two balls."""
     if a_is_cue or b_is_cue:
-        return world.e_cue_ball
-    return world.e_ball_ball
+        return table.e_cue_ball
+    return table.e_ball_ball
 
 
 @inlined
-def reduced_mass(inverse_a, inverse_b):
+def reduced_mass(inverse_a: float, inverse_b: float) -> float:
     """Return ``m_a m_b / (m_a + m_b)`` in kg from the inverses of both masses."""
     return 1.0 / (inverse_a + inverse_b)
 
 
 @inlined
-def coulomb_impulse(normal_impulse, slip, mass, mu):
+def coulomb_impulse(normal_impulse: float, slip: float, mass: float, mu: float) -> float:
     """Return the tangential impulse in N s on the first body, against `slip`.
 
     ``J_t = min(mu J_n, |slip| m)`` with the reduced `mass`: friction may stop the slip, never
@@ -47,7 +49,9 @@ def coulomb_impulse(normal_impulse, slip, mass, mu):
 
 
 @inlined
-def report_friction(tangential, other_tangential, normal_loss, mu):
+def report_friction(
+    tangential: float, other_tangential: float, normal_loss: float, mu: float
+) -> float:
     """Return a ball's tangential velocity after a contact as Listing 3 has it.
 
     `normal_loss` is the ball's normal velocity before less that after: positive for the first
@@ -61,27 +65,47 @@ def report_friction(tangential, other_tangential, normal_loss, mu):
 
 
 @inlined
-def rub_balls(world, va_t, vb_t, normal_impulse, inverse_a, inverse_b, share_a, share_b):
+def rub_balls(
+    table: Any,
+    tangential: tuple[float, float],
+    normal_impulse: float,
+    inverse_masses: tuple[float, float],
+    shares: tuple[float, float],
+) -> tuple[float, float]:
     """Return both tangential velocities after the friction of one contact.
 
-    `share_a` and `share_b` say with how many contacts of the same instant each ball shares its
-    mass, so that together they cannot turn a slip round (`coulomb` only). The report's law jumps
-    where the slip is zero, so there a slip that is no more than rounding counts as none.
+    `shares` says with how many contacts of the same instant each ball shares its mass, so that
+    together they cannot turn a slip round (`coulomb` only). The report's law jumps where the slip
+    is zero, so there a slip that is no more than rounding counts as none.
+
+    Parameters
+    ----------
+    table : named tuple
+        Coefficient and law of friction.
+    tangential : tuple of float
+        Velocities of both along the tangent, m/s.
+    normal_impulse : float
+        N s.
+    inverse_masses : tuple of float
+        1/kg.
+    shares : tuple of float
     """
-    if world.coulomb:
-        mass = reduced_mass(inverse_a * share_a, inverse_b * share_b)
-        impulse = coulomb_impulse(normal_impulse, va_t - vb_t, mass, world.mu_ball_ball)
+    va_t, vb_t = tangential
+    inverse_a, inverse_b = inverse_masses
+    if table.coulomb:
+        mass = reduced_mass(inverse_a * shares[0], inverse_b * shares[1])
+        impulse = coulomb_impulse(normal_impulse, va_t - vb_t, mass, table.mu_ball_ball)
         return va_t + impulse * inverse_a, vb_t - impulse * inverse_b
     if abs(va_t - vb_t) <= NO_SLIP * normal_impulse * (inverse_a + inverse_b):
         return va_t, vb_t
     return (
-        report_friction(va_t, vb_t, normal_impulse * inverse_a, world.mu_ball_ball),
-        report_friction(vb_t, va_t, -normal_impulse * inverse_b, world.mu_ball_ball),
+        report_friction(va_t, vb_t, normal_impulse * inverse_a, table.mu_ball_ball),
+        report_friction(vb_t, va_t, -normal_impulse * inverse_b, table.mu_ball_ball),
     )
 
 
 @inlined
-def rub_cushion(tangential, normal_change, mu, share):
+def rub_cushion(tangential: float, normal_change: float, mu: float, share: float) -> float:
     """Return the tangential velocity after a cushion's friction (report, Equation 9).
 
     ``v_t' = v_t - sign(v_t) mu |v_n' - v_n|``, never past zero.
@@ -90,32 +114,40 @@ def rub_cushion(tangential, normal_change, mu, share):
 
 
 @inlined
-def collide_balls(world, va, vb, normal, inverse_a, inverse_b, separation):
+def collide_balls(
+    table: Any,
+    va: tuple[float, float],
+    vb: tuple[float, float],
+    normal: tuple[float, float],
+    inverse_masses: tuple[float, float],
+    separation: float,
+) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return both velocities after a contact of two balls that nothing else touches.
 
     Parameters
     ----------
-    world : World
+    table : named tuple
         Coefficients and law of friction.
     va, vb, normal : tuple of float
-        Velocities before, and the unit vector from a to b.
-    inverse_a, inverse_b : float
-        Inverses of the masses, 1/kg.
+        Velocities before, m/s, and the unit vector from a to b.
+    inverse_masses : tuple of float
+        Of a and of b, 1/kg.
     separation : float
-        Speed at which they part along the normal: ``e (v_a - v_b)`` by report, Equation 2.
+        Speed at which they part along the normal, m/s: ``e (v_a - v_b)`` by report, Equation 2.
 
     Returns
     -------
     tuple of tuple of float
-        The velocities of a and of b.
+        The velocities of a and of b, m/s.
     """
     nx, ny = normal
+    inverse_a, inverse_b = inverse_masses
     va_n, va_t = va[0] * nx + va[1] * ny, va[1] * nx - va[0] * ny
     vb_n, vb_t = vb[0] * nx + vb[1] * ny, vb[1] * nx - vb[0] * ny
     impulse = (va_n - vb_n + separation) * reduced_mass(inverse_a, inverse_b)
     va_n -= impulse * inverse_a
     vb_n += impulse * inverse_b
-    va_t, vb_t = rub_balls(world, va_t, vb_t, impulse, inverse_a, inverse_b, 1.0, 1.0)
+    va_t, vb_t = rub_balls(table, (va_t, vb_t), impulse, inverse_masses, (1.0, 1.0))
     return (
         (va_n * nx - va_t * ny, va_n * ny + va_t * nx),
         (vb_n * nx - vb_t * ny, vb_n * ny + vb_t * nx),
@@ -123,41 +155,20 @@ def collide_balls(world, va, vb, normal, inverse_a, inverse_b, separation):
 
 
 @inlined
-def collide_cushion(world, normal, tangential, separation):
+def collide_cushion(
+    table: Any, normal: float, tangential: float, separation: float
+) -> tuple[float, float]:
     """Return the normal and tangential velocity of a ball after a cushion (report, Equation 9).
 
-    `separation` is the speed at which it leaves: ``e |v_n|``.
+    All in m/s, each part in either direction. `separation` is the speed at which it leaves:
+    ``e |v_n|``.
     """
     after = -sign(normal) * separation
-    return after, rub_cushion(tangential, after - normal, world.mu_ball_cushion, 1.0)
+    return after, rub_cushion(tangential, after - normal, table.mu_ball_cushion, 1.0)
 
 
 @inlined
-def cushion_normal(cushion):
-    """Return the unit vector into a cushion, by its number: x = 0, x = length, y = 0, y = width."""
-    if cushion == 0:
-        return -1.0, 0.0
-    if cushion == 1:
-        return 1.0, 0.0
-    if cushion == 2:
-        return 0.0, -1.0
-    return 0.0, 1.0
-
-
-@inlined
-def cushion_gap(world, x, y, radius, cushion):
-    """Return the gap in m between a ball and a cushion."""
-    if cushion == 0:
-        return x - radius
-    if cushion == 1:
-        return world.length - radius - x
-    if cushion == 2:
-        return y - radius
-    return world.width - radius - y
-
-
-@inlined
-def contact_normal(dx, dy):
+def contact_normal(dx: float, dy: float) -> tuple[float, float]:
     """Return the unit vector along (dx, dy)."""
     inverse = 1.0 / np.sqrt(dx * dx + dy * dy)
     return dx * inverse, dy * inverse

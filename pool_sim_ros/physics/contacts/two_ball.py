@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pool_sim_ros.physics.boundary import Rectangle
 from pool_sim_ros.physics.contacts.discs import collide_balls
-from pool_sim_ros.physics.motion.disc import World
+from pool_sim_ros.physics.motion import DiscTable
 from pool_sim_ros.physics.table import BALL_FRICTION_LAWS
 from pool_sim_ros.physics.validation import number, numbers
 
@@ -98,12 +99,11 @@ def two_ball_collision(
     normal = (math.cos(angle), math.sin(angle))
     before_a, before_b = _in_frame(va, normal), _in_frame(vb, normal)
     after_a, after_b = collide_balls(
-        _contact_world(friction, ball_friction),
+        _contact_table(friction, ball_friction),
         va,
         vb,
         normal,
-        1.0 / mass_a,
-        1.0 / mass_b,
+        (1.0 / mass_a, 1.0 / mass_b),
         restitution * (before_a[0] - before_b[0]),
     )
     in_frame_a, in_frame_b = _in_frame(after_a, normal), _in_frame(after_b, normal)
@@ -123,7 +123,7 @@ def _in_frame(v: tuple[float, float], normal: tuple[float, float]) -> tuple[floa
     return v[0] * normal[0] + v[1] * normal[1], v[1] * normal[0] - v[0] * normal[1]
 
 
-def _contact_world(friction: float, ball_friction: str) -> World:
-    """Return a world of which only the friction of two balls counts."""
-    nowhere = World(*(0.0,) * 8, coulomb=ball_friction == 'coulomb')
-    return nowhere._replace(mu_ball_ball=friction)
+def _contact_table(friction: float, ball_friction: str) -> DiscTable:
+    """Return a table of which only the friction of two balls counts."""
+    coulomb = ball_friction == 'coulomb'
+    return DiscTable(Rectangle(0.0, 0.0), 0.0, friction, 0.0, 0.0, 0.0, 0.0, coulomb, -1)

@@ -1,21 +1,32 @@
 """Which contacts belong to one instant: a rack being broken, a ball driven into a corner."""
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from pool_sim_ros.physics.contacts.discs import contact_normal, cushion_gap, cushion_normal
+from pool_sim_ros.physics.boundary import (
+    cushion_gap,
+    cushion_normal,
+    cushion_of_partner,
+    n_cushions,
+    partner_of_cushion,
+)
+from pool_sim_ros.physics.contacts import contact_normal
 from pool_sim_ros.physics.event_driven.cell_grid import neighbours
 from pool_sim_ros.physics.jit import NONE, kernel
-from pool_sim_ros.physics.motion.disc import CUSHION_X0, position_at, speed_at
+from pool_sim_ros.physics.motion import position_at, velocity_at
+from pool_sim_ros.physics.tolerances import TOUCHING
 
-TOUCHING = 1e-9
-"""Gap in m up to which things are in contact at the same instant."""
+if TYPE_CHECKING:
+    from pool_sim_ros.physics.event_driven.state import State
 
 CONTACT = np.dtype(
     [
         ('a', 'i8'),
-        ('b', 'i8'),  # a ball, or a cushion as in `motion`
+        ('b', 'i8'),  # a ball, or a cushion as in `boundary`
         ('nx', 'f8'),
         ('ny', 'f8'),
         ('closing', 'f8'),  # m/s, before
@@ -27,67 +38,81 @@ CONTACT = np.dtype(
 )
 """One of the contacts of an instant."""
 
+MEMBER = np.dtype(
+    [
+        ('place', 'i8'),  # where the ball is among the members; -1 for no member
+        ('vx', 'f8'),  # velocity, m/s
+        ('vy', 'f8'),
+        ('before_x', 'f8'),  # velocity before friction, m/s
+        ('before_y', 'f8'),
+        ('pushes', 'f8'),  # how many contacts push it
+    ]
+)
+"""A ball in the group."""
 
-class Cluster(NamedTuple):
+
+class ContactGroup(NamedTuple):
     """Room for the contacts of an instant and the balls in them."""
 
-    contacts: np.ndarray
-    members: np.ndarray
-    place: np.ndarray  # by ball: where it is among the members; -1 for no member
-    vx: np.ndarray
-    vy: np.ndarray
-    before_x: np.ndarray
-    before_y: np.ndarray
-    pushes: np.ndarray
+    contacts: NDArray[np.void]  # of CONTACT
+    members: NDArray[np.int64]  # (n,): numbers of the balls in the group
+    by_ball: NDArray[np.void]  # (n,) of MEMBER
 
 
-def new_cluster(n: int) -> Cluster:
-    """Return room for any cluster of `n` balls.
+def new_group(n: int) -> ContactGroup:
+    """Return room for any group of `n` balls.
 
-    Circles that do not overlap have at most 3 n contacts among them, and 4 n with the cushions.
+    Circles that do not overlap have at most 3 n contacts among them, and 4 n with four cushions.
     """
-    return Cluster(
-        np.zeros(7 * n, CONTACT),
-        np.zeros(n, np.int64),
-        np.full(n, -1),
-        *(np.zeros(n) for _ in range(5)),
-    )
+    group = ContactGroup(np.zeros(7 * n, CONTACT), np.zeros(n, np.int64), np.zeros(n, MEMBER))
+    group.by_ball['place'] = -1
+    return group
 
 
 @kernel
-def join(balls, world, cluster, members, ball, now):
-    """Add a ball to the cluster unless it is in; return how many there are then."""
-    if cluster.place[ball] >= 0:
+def join(state: State, members: int, i: int, now: float) -> int:
+    """Add a ball to the group unless it is in; return how many there are then."""
+    group = state.group
+    member = group.by_ball[i]
+    if member.place >= 0:
         return members
-    cluster.place[ball] = members
-    cluster.members[members] = ball
-    speed = speed_at(balls[ball], now, world.deceleration)
-    cluster.vx[ball] = balls[ball].ux * speed
-    cluster.vy[ball] = balls[ball].uy * speed
+    member.place = members
+    group.members[members] = i
+    member.vx, member.vy = velocity_at(state.balls[i], state.table, now)
     return members + 1
 
 
 @kernel
-def closing_speed(cluster, a, b, nx, ny):
+def closing_speed(group: ContactGroup, a: int, b: int, nx: float, ny: float) -> float:
     """Return the speed in m/s at which two members, or a member and a cushion, approach."""
-    closing = cluster.vx[a] * nx + cluster.vy[a] * ny
+    one = group.by_ball[a]
+    closing = one.vx * nx + one.vy * ny
     if b >= 0:
-        closing -= cluster.vx[b] * nx + cluster.vy[b] * ny
+        other = group.by_ball[b]
+        closing -= other.vx * nx + other.vy * ny
     return closing
 
 
 @kernel
-def add_contact(cluster, count, a, b, nx, ny, slowest):
+def add_contact(
+    group: ContactGroup,
+    count: int,
+    a: int,
+    b: int,
+    normal: tuple[float, float],
+    slowest: float,
+) -> int:
     """Append a contact, of two balls the lower first, if it closes faster than `slowest`, m/s.
 
     Returns how many there are then.
     """
+    nx, ny = normal
     if b >= 0 and b < a:
         a, b, nx, ny = b, a, -nx, -ny
-    closing = closing_speed(cluster, a, b, nx, ny)
+    closing = closing_speed(group, a, b, nx, ny)
     if not closing > slowest:
         return count
-    contact = cluster.contacts[count]
+    contact = group.contacts[count]
     contact.a, contact.b = a, b
     contact.nx, contact.ny = nx, ny
     contact.closing = closing
@@ -95,7 +120,7 @@ def add_contact(cluster, count, a, b, nx, ny, slowest):
 
 
 @kernel
-def gather(balls, world, cells, cluster, a, b, now, slowest):
+def gather(state: State, a: int, b: int, now: float, slowest: float) -> tuple[int, int]:
     """Collect the contacts of this instant among all that hangs together with a contact.
 
     What touches hangs together, whether it closes or not: one contact's push may reach the next
@@ -103,11 +128,8 @@ def gather(balls, world, cells, cluster, a, b, now, slowest):
 
     Parameters
     ----------
-    balls : ndarray of BALL
-    world : World
-    cells : Cells
-    cluster : Cluster
-        Filled.
+    state : State
+        Its group is filled.
     a, b : int
         The contact that is due: a ball, and a ball or a cushion.
     now : float
@@ -120,60 +142,64 @@ def gather(balls, world, cells, cluster, a, b, now, slowest):
     contacts, members : int
         How many contacts take part, and how many balls are in them.
     """
-    members = join(balls, world, cluster, NONE, a, now)
+    table, balls, group, boundary = state.table, state.balls, state.group, state.table.boundary
+    members = join(state, NONE, a, now)
     if b >= 0:
-        members = join(balls, world, cluster, members, b, now)
+        members = join(state, members, b, now)
     count = 0
     done = 0
     while done < members:
-        i = cluster.members[done]
-        x, y = position_at(balls[i], now, world.deceleration)
-        for cushion in range(4):
-            if cushion_gap(world, x, y, balls[i].radius, cushion) <= TOUCHING:
-                nx, ny = cushion_normal(cushion)
-                count = add_contact(cluster, count, i, CUSHION_X0 - cushion, nx, ny, slowest)
-        for m in range(neighbours(balls, cells, i)):
-            k = cells.near[m]
-            if k == i or 0 <= cluster.place[k] < done:
+        i = group.members[done]
+        x, y = position_at(balls[i], table, now)
+        for cushion in range(n_cushions(boundary)):
+            if cushion_gap(boundary, cushion, x, y, balls[i].radius) <= TOUCHING:
+                normal = cushion_normal(boundary, cushion, x, y)
+                count = add_contact(group, count, i, partner_of_cushion(cushion), normal, slowest)
+        for m in range(neighbours(balls, state.grid, i)):
+            k = state.grid.near[m]
+            if k == i or 0 <= group.by_ball[k].place < done:
                 continue
-            xk, yk = position_at(balls[k], now, world.deceleration)
+            xk, yk = position_at(balls[k], table, now)
             dx, dy = xk - x, yk - y
             near = balls[i].radius + balls[k].radius + TOUCHING
             if dx * dx + dy * dy <= near * near:
-                members = join(balls, world, cluster, members, k, now)
-                nx, ny = contact_normal(dx, dy)
-                count = add_contact(cluster, count, i, k, nx, ny, slowest)
+                members = join(state, members, k, now)
+                count = add_contact(group, count, i, k, contact_normal(dx, dy), slowest)
         done += 1
-    return count, keep_those_in_contact(cluster, count, members)
+    return count, keep_those_in_contact(group, count, members)
 
 
 @kernel
-def take_alone(balls, world, cluster, a, b, now):
+def take_alone(state: State, a: int, b: int, now: float) -> tuple[int, int]:
     """Collect only the contact of ball `a` with `b`, even if rounding has it part already."""
-    members = join(balls, world, cluster, NONE, a, now)
-    nx, ny = cushion_normal(CUSHION_X0 - b)
+    table, balls = state.table, state.balls
+    members = join(state, NONE, a, now)
+    xa, ya = position_at(balls[a], table, now)
     if b >= 0:
-        members = join(balls, world, cluster, members, b, now)
-        xa, ya = position_at(balls[a], now, world.deceleration)
-        xb, yb = position_at(balls[b], now, world.deceleration)
-        nx, ny = contact_normal(xb - xa, yb - ya)
-    count = add_contact(cluster, NONE, a, b, nx, ny, -np.inf)
-    return count, keep_those_in_contact(cluster, count, members)
+        members = join(state, members, b, now)
+        xb, yb = position_at(balls[b], table, now)
+        normal = contact_normal(xb - xa, yb - ya)
+    else:
+        normal = cushion_normal(table.boundary, cushion_of_partner(b), xa, ya)
+    count = add_contact(state.group, NONE, a, b, normal, -np.inf)
+    return count, keep_those_in_contact(state.group, count, members)
 
 
 @kernel
-def keep_those_in_contact(cluster, count, members):
+def keep_those_in_contact(group: ContactGroup, count: int, members: int) -> int:
     """Leave only those members that take part in a contact; return how many there are."""
     for m in range(members):
-        cluster.pushes[cluster.members[m]] = 0.0
-        cluster.place[cluster.members[m]] = -1
+        member = group.by_ball[group.members[m]]
+        member.pushes = 0.0
+        member.place = -1
     for c in range(count):
-        cluster.pushes[cluster.contacts[c].a] = 1.0
-        if cluster.contacts[c].b >= 0:
-            cluster.pushes[cluster.contacts[c].b] = 1.0
+        contact = group.contacts[c]
+        group.by_ball[contact.a].pushes = 1.0
+        if contact.b >= 0:
+            group.by_ball[contact.b].pushes = 1.0
     kept = 0
     for m in range(members):
-        if cluster.pushes[cluster.members[m]] > 0.0:
-            cluster.members[kept] = cluster.members[m]
+        if group.by_ball[group.members[m]].pushes > 0.0:
+            group.members[kept] = group.members[m]
             kept += 1
     return kept

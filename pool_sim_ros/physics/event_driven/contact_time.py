@@ -1,47 +1,21 @@
-"""When two things that move towards each other touch.
+"""When two balls that both move touch: never by stepping past a contact.
 
-Nothing is discarded by an epsilon (Bannerman et al., arXiv 1211.6718): a pair
-that touches or overlaps and approaches meets now, one that separates does not.
+Nothing is discarded by an epsilon (Bannerman et al., arXiv 1211.6718): a pair that touches or
+overlaps and approaches meets now, one that separates does not. Any two motions of constant
+acceleration will do.
 """
+
+from __future__ import annotations
 
 import numpy as np
 
 from pool_sim_ros.physics.jit import inlined
-
-MAX_STEPS = 200
-"""Far beyond what quadratic convergence needs; a graze, where it is linear, takes about 50."""
-
-TOUCH_ROUNDING = 2.0**-51
-"""Part of the square of the distance at contact that rounding may add to or take from it."""
+from pool_sim_ros.physics.motion import RelativeMotion, after
+from pool_sim_ros.physics.tolerances import MAX_STEPS, ROOT_MARGIN, TOUCH_ROUNDING
 
 
 @inlined
-def time_to_cover(way, speed, deceleration):
-    """Return the time in s to roll `way` m, which must be within reach.
-
-    The smaller root of ``way = speed t - deceleration t^2 / 2``, without cancellation.
-    """
-    return 2.0 * way / (speed + np.sqrt(max(speed * speed - 2.0 * deceleration * way, 0.0)))
-
-
-@inlined
-def way_to_resting_ball(dx, dy, ux, uy, touch, reach):
-    """Return the way in m along (ux, uy) to a ball at rest at (dx, dy); inf for a miss.
-
-    `touch` is the sum of the radii. A graze is a miss: it exchanges nothing. So, here, is what
-    is farther than `reach`.
-    """
-    along = dx * ux + dy * uy
-    aside = dx * uy - dy * ux
-    half_chord_squared = touch * touch - aside * aside
-    # One test, nearly always false: each of the three would be guessed wrong half the time.
-    if (along > 0.0) & (along - touch < reach) & (half_chord_squared > 0.0):
-        return max(along - np.sqrt(half_chord_squared), 0.0)
-    return np.inf
-
-
-@inlined
-def first_root(gap, closing, opening):
+def first_root(gap: float, closing: float, opening: float) -> float:
     """Return the smallest root >= 0 of ``gap - closing t + opening t^2 / 2``; inf for none.
 
     `gap` must not be negative.
@@ -60,15 +34,18 @@ def first_root(gap, closing, opening):
 
 
 @inlined
-def gap_from_below(dx, dy, wx, wy, gx, gy, touch, horizon):
+def gap_from_below(
+    motion: RelativeMotion, touch: float, horizon: float
+) -> tuple[float, float, float]:
     """Return a parabola in time that the squared gap of two balls is never below.
 
-    That is up to `horizon`: the difference of the squares of distance and `touch`, m^2, as the
-    `gap`, `closing` and `opening` of `first_root`. Arguments as `time_to_moving_ball`.
+    That holds up to `horizon`. It is the difference of the squares of distance and `touch`, m^2,
+    as the `gap`, `closing` and `opening` of `first_root`. Arguments as `time_to_moving_ball`.
 
-    The square of ``d + w t + g t^2 / 2`` is a quartic whose cubic term is ``w g t^3``, and with
-    the last one no less than ``-w^2 t^2``: both are taken at their worst.
+    The square of ``d + w t + g t^2 / 2`` is a quartic. Its cubic term is ``w g t^3``, and together
+    with the last one it is no less than ``-w^2 t^2``: both are taken at their worst.
     """
+    dx, dy, wx, wy, gx, gy = motion
     squared = wx * wx + wy * wy
     bending = wx * gx + wy * gy
     worst = max(bending * horizon, -squared) if bending < 0.0 else 0.0
@@ -79,25 +56,24 @@ def gap_from_below(dx, dy, wx, wy, gx, gy, touch, horizon):
 
 
 @inlined
-def stays_positive(gap, closing, opening, horizon):
+def stays_positive(gap: float, closing: float, opening: float, horizon: float) -> bool:
     """Return whether ``gap - closing t + opening t^2 / 2`` has no root before `horizon`.
 
     False where rounding might decide.
     """
     at_end = gap - horizon * (closing - 0.5 * horizon * opening)
-    above = closing * closing < 2.0 * opening * gap * (1.0 - 1e-9)
-    return (at_end > 1e-9 * gap) & (above | (closing <= 0.0) | (closing > opening * horizon))
+    above = closing * closing < 2.0 * opening * gap * (1.0 - ROOT_MARGIN)
+    return (at_end > ROOT_MARGIN * gap) & (above | (closing <= 0.0) | (closing > opening * horizon))
 
 
 @inlined
-def time_to_moving_ball(dx, dy, wx, wy, gx, gy, touch, horizon):
+def time_to_moving_ball(motion: RelativeMotion, touch: float, horizon: float) -> float:
     """Return the time in s until two moving balls touch; inf if not before `horizon`.
 
     Parameters
     ----------
-    dx, dy, wx, wy, gx, gy : float
-        Place, velocity and acceleration of the second ball relative to the
-        first: m, m/s, m/s^2.
+    motion : RelativeMotion
+        Of the second ball relative to the first.
     touch : float
         Sum of the radii, m.
     horizon : float
@@ -105,12 +81,11 @@ def time_to_moving_ball(dx, dy, wx, wy, gx, gy, touch, horizon):
 
     Notes
     -----
-    The first root of a parabola that the squared gap is never below is a lower
-    bound of the contact time: step there and repeat. It cannot step past a
-    contact, and converges as Newton's method does; without friction the first
-    step is exact.
+    The first root of a parabola that the squared gap is never below is a lower bound of the
+    contact time: step there and repeat. This cannot step past a contact, and converges as Newton's
+    method does; without friction the first step is exact.
     """
-    gap, closing, opening = gap_from_below(dx, dy, wx, wy, gx, gy, touch, horizon)
+    gap, closing, opening = gap_from_below(motion, touch, horizon)
     if (horizon <= 0.0) | stays_positive(gap, closing, opening, horizon):
         return np.inf
     t = 0.0
@@ -121,14 +96,5 @@ def time_to_moving_ball(dx, dy, wx, wy, gx, gy, touch, horizon):
         if t + step == t:
             return t
         t += step
-        gap, closing, opening = gap_from_below(
-            dx + t * (wx + 0.5 * t * gx),
-            dy + t * (wy + 0.5 * t * gy),
-            wx + t * gx,
-            wy + t * gy,
-            gx,
-            gy,
-            touch,
-            horizon - t,
-        )
+        gap, closing, opening = gap_from_below(after(motion, t), touch, horizon - t)
     return t

@@ -3,7 +3,10 @@
 Node k's children are 2 k and 2 k + 1; of n balls, ball i is node n + i, and node 1 is the winner.
 """
 
+from __future__ import annotations
+
 import numpy as np
+from numpy.typing import NDArray
 
 from pool_sim_ros.physics.jit import inlined
 
@@ -11,26 +14,32 @@ NODE = np.dtype([('t', 'f8'), ('ball', 'i8')])
 """The earlier of two events: when, in s, and whose."""
 
 
-def new_schedule(n: int) -> np.ndarray:
-    """Return a schedule of `n` balls, (2 n,) of NODE, in which nothing is due."""
-    schedule = np.zeros(2 * n, NODE)
-    schedule['t'] = np.inf
-    schedule['ball'][n:] = np.arange(n)
-    return schedule
+def new_queue(n: int) -> NDArray[np.void]:
+    """Return the queue of `n` balls, (2 n,) of NODE, in which nothing is due."""
+    queue = np.zeros(2 * n, NODE)
+    queue['t'] = np.inf
+    queue['ball'][n:] = np.arange(n)
+    return queue
 
 
 @inlined
-def put_down(schedule, i, t):
+def first(queue: NDArray[np.void]) -> tuple[float, int]:
+    """Return when the next event is due, in s, and whose it is."""
+    return queue[1].t, queue[1].ball
+
+
+@inlined
+def reschedule(queue: NDArray[np.void], i: int, t: float) -> None:
     """Note that ball `i` is next due at `t`, s."""
-    node = len(schedule) // 2 + i
-    schedule[node].t = t
+    node = len(queue) // 2 + i
+    queue[node].t = t
     while node > 1:
         left = node & ~1
         # Of two at one time the left one. No branch: it would be guessed wrong half the time.
-        winner = left + (schedule[left + 1].t < schedule[left].t)
+        winner = left + (queue[left + 1].t < queue[left].t)
         node >>= 1
-        t, ball = schedule[winner].t, schedule[winner].ball
-        if schedule[node].t == t and schedule[node].ball == ball:
+        t, ball = queue[winner].t, queue[winner].ball
+        if queue[node].t == t and queue[node].ball == ball:
             break
-        schedule[node].t = t
-        schedule[node].ball = ball
+        queue[node].t = t
+        queue[node].ball = ball

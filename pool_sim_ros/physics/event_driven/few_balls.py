@@ -9,96 +9,85 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pool_sim_ros.physics.jit import inlined
+from pool_sim_ros.physics.motion import RESTS
+
+X, Y, RADIUS, DISTANCE = 0, 1, 2, 3
+"""Rows of `FewBalls.rows`."""
 
 
-class Resting(NamedTuple):
-    """Of every ball, (n,) each; all are empty on a table with many balls."""
+class FewBalls(NamedTuple):
+    """The balls of a table with few of them, n; on a table with many there are no columns.
 
-    x: np.ndarray  # where it rests, m; NaN while it moves
-    y: np.ndarray
-    radius: np.ndarray  # m
-    way: np.ndarray  # room for the way to each, m
-    moving: np.ndarray  # the numbers of those that move, in order
-    count: np.ndarray  # (1,): how many those are
+    It has few arrays, since each costs seven arguments wherever a kernel calls another.
+    """
+
+    rows: NDArray[np.float64]  # (4, n): where a ball rests, NaN while it moves; radius; room, m
+    moving: NDArray[np.int64]  # (n + 1,): the numbers of those that move, in order; their count
 
 
-def new_resting(balls: np.ndarray) -> Resting:
-    """Return it for balls that all rest."""
-    n = len(balls)
-    return Resting(
-        balls['x'].copy(),
-        balls['y'].copy(),
-        balls['radius'].copy(),
-        np.empty(n),
-        np.empty(n, np.int64),
-        np.zeros(1, np.int64),
-    )
+def new_few_balls(balls: NDArray[np.void], wanted: bool) -> FewBalls:
+    """Return it for balls that all rest; without columns, only with room, unless `wanted`."""
+    rows = np.empty((4, len(balls) if wanted else 0))
+    if wanted:
+        rows[X], rows[Y], rows[RADIUS] = balls['x'], balls['y'], balls['radius']
+    return FewBalls(rows, np.zeros(len(balls) + 1, np.int64))
 
 
 @inlined
-def note_motion(resting, balls, i):
+def n_moving(few: FewBalls) -> int:
+    """Return how many balls move."""
+    return few.moving[len(few.moving) - 1]
+
+
+@inlined
+def note_motion(few: FewBalls, balls: NDArray[np.void], i: int) -> None:
     """Note whether ball `i` moves now, and where it rests if not."""
-    if len(resting.x) == 0:
+    if few.rows.shape[1] == 0:
         return
-    ball = balls[i]
-    moved = resting.x[i] != resting.x[i]
-    moves = ball.speed > 0.0
-    resting.x[i] = np.nan if moves else ball.x
-    resting.y[i] = ball.y
+    ball, moving = balls[i], few.moving
+    moved = few.rows[X, i] != few.rows[X, i]
+    moves = ball.phase != RESTS
+    few.rows[X, i] = np.nan if moves else ball.x
+    few.rows[Y, i] = ball.y
     if moves == moved:
         return
-    count = resting.count[0]
+    count = n_moving(few)
     if moves:
         k = count
-        while k > 0 and resting.moving[k - 1] > i:
-            resting.moving[k] = resting.moving[k - 1]
+        while k > 0 and moving[k - 1] > i:
+            moving[k] = moving[k - 1]
             k -= 1
-        resting.moving[k] = i
-        resting.count[0] = count + 1
+        moving[k] = i
+        moving[len(moving) - 1] = count + 1
     else:
         k = 0
-        while resting.moving[k] != i:
+        while moving[k] != i:
             k += 1
         for m in range(k, count - 1):
-            resting.moving[m] = resting.moving[m + 1]
-        resting.count[0] = count - 1
+            moving[m] = moving[m + 1]
+        moving[len(moving) - 1] = count - 1
 
 
 @inlined
-def first_in_the_way(resting, x, y, ux, uy, radius, reach):
-    """Return the way in m to the first resting ball, and which that is.
-
-    That of a ball at (x, y) on its way along (ux, uy): `contact_time.way_to_resting_ball`, for all
-    at once. It is `reach`, and -1, where there is none before.
-    """
-    n = len(resting.x)
-    for k in range(n):
-        dx, dy = resting.x[k] - x, resting.y[k] - y
-        touch = radius + resting.radius[k]
-        along = dx * ux + dy * uy
-        aside = dx * uy - dy * ux
-        half_chord_squared = touch * touch - aside * aside
-        way = max(along - np.sqrt(max(half_chord_squared, 0.0)), 0.0)
-        meets = (along > 0.0) & (half_chord_squared > 0.0)
-        resting.way[k] = way if meets else np.inf
-    way, partner = reach, -1
-    for k in range(n):
-        if resting.way[k] < way:
-            way, partner = resting.way[k], k
-    return way, partner
+def put_at_rest(few: FewBalls, i: int, x: float, y: float) -> None:
+    """Note that ball `i` rests at (x, y), m, where all others rest too or will be put."""
+    if few.rows.shape[1] > 0:
+        few.rows[X, i] = x
+        few.rows[Y, i] = y
 
 
 @inlined
-def touches_resting(resting, x, y, radius, i, but):
+def touches_resting(few: FewBalls, x: float, y: float, radius: float, i: int, but: int) -> bool:
     """Return whether any resting ball, except numbers `i` and `but`, is within `radius` of (x, y).
 
     `radius` in m is to the surface of that ball.
     """
     found = 0
-    for k in range(len(resting.x)):
-        dx, dy = resting.x[k] - x, resting.y[k] - y
-        near = radius + resting.radius[k]
+    for k in range(few.rows.shape[1]):
+        dx, dy = few.rows[X, k] - x, few.rows[Y, k] - y
+        near = radius + few.rows[RADIUS, k]
         found |= (dx * dx + dy * dy <= near * near) & (k != i) & (k != but)
     return found != 0

@@ -5,175 +5,139 @@ before anything else is told. A ball that was about to meet it learns of the cha
 contact falls due: nothing can have come before.
 """
 
-import numpy as np
+from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics.boundary import PHASE_END
 from pool_sim_ros.physics.event_driven.cell_grid import (
     all_moving,
+    cell_edges,
     has_few,
     move_on,
     neighbours,
-    ways_out,
 )
-from pool_sim_ros.physics.event_driven.contact_time import (
-    time_to_cover,
-    time_to_moving_ball,
-    way_to_resting_ball,
-)
-from pool_sim_ros.physics.event_driven.event_queue import put_down
-from pool_sim_ros.physics.event_driven.few_balls import first_in_the_way, note_motion
+from pool_sim_ros.physics.event_driven.contact_time import time_to_moving_ball
+from pool_sim_ros.physics.event_driven.event_queue import reschedule
+from pool_sim_ros.physics.event_driven.few_balls import n_moving, note_motion
+from pool_sim_ros.physics.event_driven.state import State
 from pool_sim_ros.physics.jit import NONE, inlined, kernel
-from pool_sim_ros.physics.motion.disc import (
-    CUSHION_X0,
-    CUSHION_X1,
-    CUSHION_Y0,
-    CUSHION_Y1,
-    STOP,
-    position_at,
-    speed_at,
-    stop_time,
+from pool_sim_ros.physics.motion import (
+    RESTS,
+    first_resting_ball,
+    first_resting_of,
+    path_from,
+    phase_end_time,
+    relative_motion,
+    time_to_boundary,
+    time_to_cell_edge,
+    time_to_resting_ball,
 )
 
 
 @inlined
-def predict_after(balls, world, cells, schedule, changed, count, now):
-    """Find the next events of the `count` balls in `changed`, whose motion is new at `now`."""
+def predict_after(state: State, count: int, now: float) -> None:
+    """Find the next events of the `count` balls in the group, whose motion is new at `now`."""
+    balls, changed = state.balls, state.group.members
     for m in range(count):
-        balls[changed[m]].contact = np.inf
-        note_motion(cells.resting, balls, changed[m])
+        balls[changed[m]].next_contact_time = np.inf
+        note_motion(state.grid.few, balls, changed[m])
     for m in range(count):
-        if balls[changed[m]].speed > 0.0:
-            predict(balls, world, cells, schedule, changed, m, changed[m], now)
+        if balls[changed[m]].phase != RESTS:
+            predict(state, changed[m], m, now)
         else:
-            lay_down(balls, world, cells, schedule, changed[m], now)
+            lay_down(state, changed[m], now)
 
 
 @kernel
-def predict(balls, world, cells, schedule, done, n_done, i, now):
+def predict(state: State, i: int, n_done: int, now: float) -> None:
     """Find the next event of moving ball `i`, and tell those that it meets before theirs.
 
-    The first `n_done` balls of `done` have looked at their pair with this one already.
+    The first `n_done` balls of the group have looked at their pair with this one already.
     """
-    ball = balls[i]
-    a = world.deceleration
-    x, y = position_at(ball, now, a)
-    speed = speed_at(ball, now, a)
-    way, partner = way_to_cushions(world, ball, x, y)
-    t = max(stop_time(ball, a), now)
-    if 2.0 * a * way < speed * speed:
-        t = min(now + time_to_cover(way, speed, a), t)
-    else:
-        partner = STOP
-    if t < ball.contact:
-        ball.contact = t
+    table, ball = state.table, state.balls[i]
+    path = path_from(ball, table, now)
+    seconds, partner = time_to_boundary(path, table, ball)
+    t = max(phase_end_time(ball, table), now)
+    if partner != PHASE_END:
+        t = min(now + seconds, t)
+    if t < ball.next_contact_time:
+        ball.next_contact_time = t
         ball.partner = partner
-    count = neighbours(balls, cells, i)
-    meet(balls, world, cells, schedule, count, done, n_done, i, x, y, speed, now)
-    plan(balls, world, cells, schedule, i, x, y, speed, now)
+    count = neighbours(state.balls, state.grid, i)
+    meet(state, i, path, count, n_done, now)
+    plan(state, i, path, now)
 
 
 @kernel
-def cross(balls, world, cells, schedule, i, now):
+def cross(state: State, i: int, now: float) -> None:
     """Let ball `i` go on into the next cell, and look at what is new there."""
-    ball = balls[i]
-    x, y = position_at(ball, now, world.deceleration)
-    speed = speed_at(ball, now, world.deceleration)
-    count = move_on(balls, cells, i, x, y)
-    meet(balls, world, cells, schedule, count, cells.near, NONE, i, x, y, speed, now)
-    plan(balls, world, cells, schedule, i, x, y, speed, now)
+    balls, grid = state.balls, state.grid
+    path = path_from(balls[i], state.table, now)
+    _, step_x, step_y = time_to_cell_edge(path, state.table, *cell_edges(grid, balls[i]))
+    count = move_on(balls, grid, i, step_x, step_y)
+    meet(state, i, path, count, NONE, now)
+    plan(state, i, path, now)
 
 
 @inlined
-def plan(balls, world, cells, schedule, i, x, y, speed, now):
-    """Find when ball `i`, at (x, y) with `speed`, leaves its cell; put down what is first."""
-    ball = balls[i]
-    ball.crossing = np.inf
-    to_x, to_y = ways_out(cells, ball, x, y)
-    way = max(min(to_x, to_y), 0.0)
-    if 2.0 * world.deceleration * way < speed * speed and way < np.inf:
-        ball.crossing = now + time_to_cover(way, speed, world.deceleration)
-    put_down(schedule, i, min(ball.contact, ball.crossing))
+def plan(state: State, i: int, path: Any, now: float) -> None:
+    """Find when ball `i` leaves its cell, and put down what is first."""
+    ball = state.balls[i]
+    ball.cell_exit_time = np.inf
+    if not has_few(state.grid):
+        edges = cell_edges(state.grid, ball)
+        seconds, _, _ = time_to_cell_edge(path, state.table, *edges)
+        ball.cell_exit_time = now + seconds
+    reschedule(state.queue, i, min(ball.next_contact_time, ball.cell_exit_time))
 
 
 @inlined
-def way_to_cushions(world, ball, x, y):
-    """Return the way in m of a ball, now at (x, y), to the first cushion, and which that is."""
-    way, partner = np.inf, STOP
-    if ball.ux > 0.0:
-        way, partner = (world.length - ball.radius - x) / ball.ux, CUSHION_X1
-    elif ball.ux < 0.0:
-        way, partner = (ball.radius - x) / ball.ux, CUSHION_X0
-    if ball.uy > 0.0:
-        to_y = (world.width - ball.radius - y) / ball.uy
-        if to_y < way:
-            way, partner = to_y, CUSHION_Y1
-    elif ball.uy < 0.0:
-        to_y = (ball.radius - y) / ball.uy
-        if to_y < way:
-            way, partner = to_y, CUSHION_Y0
-    return max(way, 0.0), partner
-
-
-@inlined
-def meet(balls, world, cells, schedule, count, done, n_done, i, x, y, speed, now):
-    """Let ball `i`, at (x, y) with `speed`, meet the first of the `count` balls that are near.
-
-    What rests is compared by the way to it, so that only one time has to be computed.
-    """
+def meet(state: State, i: int, path: Any, count: int, n_done: int, now: float) -> None:
+    """Let ball `i` meet the first of the `count` balls that are near."""
+    table, balls, grid = state.table, state.balls, state.grid
     ball = balls[i]
-    a = world.deceleration
-    lasts = ball.contact - now
-    reach = lasts * (speed - 0.5 * a * lasts) if lasts < np.inf else np.inf
-    if has_few(cells):
-        way, partner = first_in_the_way(cells.resting, x, y, ball.ux, ball.uy, ball.radius, reach)
-        moving, n_moving = cells.resting.moving, cells.resting.count[0]
+    lasts = ball.next_contact_time - now
+    if has_few(grid):
+        seconds, partner = first_resting_ball(path, table, ball.radius, lasts, grid.few.rows)
+        n_others = n_moving(grid.few)
     else:
-        resting, moving = cells.near, cells.moving
-        n_resting, n_moving = sort_out(balls, cells, count, i)
-        way, partner = first_of(balls, resting, n_resting, ball, x, y, reach)
+        n_resting, n_others = sort_out(state, count, i)
+        seconds, partner = first_resting_of(
+            path, table, ball.radius, lasts, balls, grid.near, n_resting
+        )
     if partner >= 0:
-        book(balls, i, partner, now + time_to_cover(way, speed, a))
-    for m in range(n_moving):
-        j = moving[m]
-        if j != i and not is_among(j, done, n_done):
-            meet_moving(balls, world, schedule, i, j, x, y, speed, now)
+        book(balls, i, partner, now + seconds)
+    for m in range(n_others):
+        j = grid.few.moving[m]
+        if j != i and not is_among(j, state.group.members, n_done):
+            meet_moving(state, i, j, path, now)
 
 
 @inlined
-def sort_out(balls, cells, count, i):
+def sort_out(state: State, count: int, i: int) -> tuple[int, int]:
     """Divide the `count` balls that are near into those that rest, in `near`, and those that move.
 
     Ball `i`, which moves, is left out. Returns how many rest and how many move. No branches: they
     would be guessed wrong.
     """
-    n_resting = n_moving = 0
+    balls, grid = state.balls, state.grid
+    n_resting = n_moves = 0
     for m in range(count):
-        j = cells.near[m]
-        moves = balls[j].speed > 0.0
-        cells.near[n_resting] = j
-        cells.moving[n_moving] = j
+        j = grid.near[m]
+        moves = balls[j].phase != RESTS
+        grid.near[n_resting] = j
+        grid.few.moving[n_moves] = j
         n_resting += not moves
-        n_moving += moves & (j != i)
-    return n_resting, n_moving
+        n_moves += moves & (j != i)
+    return n_resting, n_moves
 
 
 @inlined
-def first_of(balls, resting, count, ball, x, y, reach):
-    """Return the way in m to the first of `count` resting balls, and which that is.
-
-    As `first_in_the_way`.
-    """
-    way, partner = reach, STOP
-    for m in range(count):
-        other = balls[resting[m]]
-        touch = ball.radius + other.radius
-        to_ball = way_to_resting_ball(other.x - x, other.y - y, ball.ux, ball.uy, touch, way)
-        if to_ball < way:
-            way, partner = to_ball, resting[m]
-    return way, partner
-
-
-@inlined
-def is_among(j, some, count):
+def is_among(j: int, some: NDArray[np.int64], count: int) -> bool:
     """Return whether ball `j` is one of the first `count` of `some`."""
     for m in range(count):
         if some[m] == j:
@@ -182,11 +146,11 @@ def is_among(j, some, count):
 
 
 @inlined
-def book(balls, i, j, t):
+def book(balls: NDArray[np.void], i: int, j: int, t: float) -> bool:
     """Let ball `i` meet ball `j` at `t`, if it has nothing before; return whether it does."""
     ball = balls[i]
-    if t < ball.contact:
-        ball.contact = t
+    if t < ball.next_contact_time:
+        ball.next_contact_time = t
         ball.partner = j
         ball.partner_changes = balls[j].changes
         return True
@@ -194,49 +158,37 @@ def book(balls, i, j, t):
 
 
 @inlined
-def meet_moving(balls, world, schedule, i, j, x, y, speed, now):
-    """Let balls `i` and `j`, both moving, meet if that comes before what either has next.
-
-    (x, y) and `speed` are those of `i` at `now`.
-    """
-    ball, other = balls[i], balls[j]
-    a = world.deceleration
-    xj, yj = position_at(other, now, a)
-    speed_j = speed_at(other, now, a)
-    ends = min(stop_time(ball, a), stop_time(other, a))
+def meet_moving(state: State, i: int, j: int, path: Any, now: float) -> None:
+    """Let balls `i` and `j`, both moving, meet if that comes before what either has next."""
+    table = state.table
+    ball, other = state.balls[i], state.balls[j]
+    ends = min(phase_end_time(ball, table), phase_end_time(other, table))
     t = now + time_to_moving_ball(
-        xj - x,
-        yj - y,
-        other.ux * speed_j - ball.ux * speed,
-        other.uy * speed_j - ball.uy * speed,
-        a * (ball.ux - other.ux),
-        a * (ball.uy - other.uy),
+        relative_motion(path, table, path_from(other, table, now)),
         ball.radius + other.radius,
-        min(ball.contact, other.contact, ends) - now,
+        min(ball.next_contact_time, other.next_contact_time, ends) - now,
     )
-    if t < other.contact and book(balls, i, j, t):
-        book(balls, j, i, t)
-        put_down(schedule, j, min(t, other.crossing))
+    if t < other.next_contact_time and book(state.balls, i, j, t):
+        book(state.balls, j, i, t)
+        reschedule(state.queue, j, min(t, other.cell_exit_time))
 
 
 @inlined
-def lay_down(balls, world, cells, schedule, j, now):
-    """Take ball `j`, which has come to rest, out of the schedule; tell the moving balls near it."""
+def lay_down(state: State, j: int, now: float) -> None:
+    """Take ball `j`, which has come to rest, out of the queue; tell the moving balls near it."""
+    table, balls, grid = state.table, state.balls, state.grid
     other = balls[j]
-    a = world.deceleration
-    other.contact = other.crossing = np.inf
-    note_motion(cells.resting, balls, j)
-    put_down(schedule, j, np.inf)
-    others, count = all_moving(balls, cells, j)
+    other.next_contact_time = other.cell_exit_time = np.inf
+    note_motion(grid.few, balls, j)
+    reschedule(state.queue, j, np.inf)
+    others, count = all_moving(balls, grid, j)
     for m in range(count):
         i = others[m]
         ball = balls[i]
-        if ball.speed == 0.0:
+        if ball.phase == RESTS:
             continue
-        x, y = position_at(ball, now, a)
-        speed = speed_at(ball, now, a)
-        reach = np.inf if a == 0.0 else 0.5 * speed * speed / a
+        path = path_from(ball, table, now)
         touch = ball.radius + other.radius
-        way = way_to_resting_ball(other.x - x, other.y - y, ball.ux, ball.uy, touch, reach)
-        if way < reach and book(balls, i, j, now + time_to_cover(way, speed, a)):
-            put_down(schedule, i, min(ball.contact, ball.crossing))
+        seconds = time_to_resting_ball(path, table, other.x - path.x, other.y - path.y, touch)
+        if seconds < np.inf and book(balls, i, j, now + seconds):
+            reschedule(state.queue, i, min(ball.next_contact_time, ball.cell_exit_time))

@@ -1,80 +1,86 @@
-"""Resolve what is due: one contact in closed form, several of one instant together."""
+"""Resolve what is due: one contact by its law, several of one instant together."""
 
-from pool_sim_ros.physics.contacts.discs import (
-    collide_balls,
-    collide_cushion,
-    contact_normal,
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics.boundary import (
     cushion_normal,
-    restitution,
+    cushion_of_partner,
+    from_cushion_axes,
+    to_cushion_axes,
+    touches_cushion,
 )
+from pool_sim_ros.physics.contacts import collide_balls, collide_cushion, contact_normal
 from pool_sim_ros.physics.event_driven.cell_grid import all_moving, has_few
-from pool_sim_ros.physics.event_driven.contact_group import TOUCHING, gather, take_alone
+from pool_sim_ros.physics.event_driven.contact_group import gather, take_alone
 from pool_sim_ros.physics.event_driven.few_balls import touches_resting
-from pool_sim_ros.physics.event_driven.simultaneous import move_as_one, resolve
-from pool_sim_ros.physics.jit import inlined, kernel
-from pool_sim_ros.physics.motion.disc import (
-    CUSHION_X0,
-    CUSHION_X1,
-    position_at,
-    set_velocity,
-    speed_at,
+from pool_sim_ros.physics.event_driven.inelastic_collapse import (
+    count_round,
+    rounds_at,
+    separation_speed,
 )
-from pool_sim_ros.physics.state import BALL_BALL, CUSHION, log_event, log_segment
-
-V_MIN = 1e-4
-"""Contacts that close slower, in m/s, are weak: they take no part in another's instant, and may
-belong to a collapse, bouncing ever faster."""
-
-V_ROUNDING = 1e-11
-"""Speed in m/s at which a weak contact parts at the least, so that rounding cannot close it."""
-
-COLLAPSE_GROWTH = 4.0
-"""What that speed is multiplied by at each repeat, up to V_MIN: this ends a collapse."""
-
-REPEAT_WINDOW = 1e-3
-"""Time in s within which a weak contact repeats an earlier one."""
-
-ROUND = 1e-6
-"""Time in s within which a contact belongs to the same rattle as the one before."""
-
-MAX_ROUNDS = 200
-"""Contacts of one ball in a rattle after which it parts from what it touches at V_MIN."""
-
-LAST_ROUND = 250
-"""The same, after which all that touches moves as one: it is wedged and cannot part."""
+from pool_sim_ros.physics.event_driven.simultaneous import move_as_one, resolve
+from pool_sim_ros.physics.event_driven.state import State
+from pool_sim_ros.physics.jit import inlined, kernel
+from pool_sim_ros.physics.log import BALL_BALL, CUSHION, log_event, log_hit, log_segment
+from pool_sim_ros.physics.motion import RESTS, acceleration, position_at, set_off, velocity_at
+from pool_sim_ros.physics.tolerances import LAST_ROUND, MAX_ROUNDS, TOUCHING, V_MIN
 
 
 @inlined
-def stands_alone(balls, world, cells, a, b, now):
+def collide(state: State, a: int, b: int, now: float) -> int:
+    """Resolve the contact of ball `a` with `b` that is due.
+
+    Returns how many balls have a new motion; the first members of the group are these.
+    """
+    changed = state.group.members
+    if not stands_alone(state, a, b, now):
+        contacts, members = gather_group(state, a, b, now)
+        hit_group(state, contacts, members, now)
+        return members
+    if b >= 0:
+        hit_ball(state, min(a, b), max(a, b), now)
+        changed[0], changed[1] = a, b
+        return 2
+    hit_cushion(state, a, b, now)
+    changed[0] = a
+    return 1
+
+
+@inlined
+def stands_alone(state: State, a: int, b: int, now: float) -> bool:
     """Return whether the contact of moving ball `a` with `b` is the plain case.
 
     That is: nothing else touches either at this instant, and neither rattles.
     """
-    if rounds_at(balls, a, b, now) > MAX_ROUNDS:
+    if rounds_at(state.balls, a, b, now) > MAX_ROUNDS:
         return False
-    if is_touched(balls, world, cells, a, b, now):
+    if is_touched(state, a, b, now):
         return False
-    return b < 0 or not is_touched(balls, world, cells, b, a, now)
+    return b < 0 or not is_touched(state, b, a, now)
 
 
 @inlined
-def is_touched(balls, world, cells, i, but, now):
+def is_touched(state: State, i: int, but: int, now: float) -> bool:
     """Return whether anything but `but`, a ball or a cushion, touches ball `i` now."""
+    table, balls, grid = state.table, state.balls, state.grid
     ball = balls[i]
-    moves = ball.speed > 0.0
-    x, y = position_at(ball, now, world.deceleration)
-    if moves and touches_cushion(world, x, y, ball.radius, CUSHION_X0 - but):
-        return True
+    x, y = position_at(ball, table, now)
     near = ball.radius + TOUCHING
-    if has_few(cells) and touches_resting(cells.resting, x, y, near, i, but):
+    cushion = cushion_of_partner(but)
+    if ball.phase != RESTS and touches_cushion(table.boundary, x, y, near, cushion):
         return True
-    others, count = all_moving(balls, cells, i)
+    if has_few(grid) and touches_resting(grid.few, x, y, near, i, but):
+        return True
+    others, count = all_moving(balls, grid, i)
     # Ball `i` itself and `but` are as close as that every time: no branch for them in the loop.
     found = 0
     for m in range(count):
         k = others[m]
         other = balls[k]
-        xk, yk = position_at(other, now, world.deceleration)
+        xk, yk = position_at(other, table, now)
         touch = near + other.radius
         close = (xk - x) * (xk - x) + (yk - y) * (yk - y) <= touch * touch
         found |= close & (k != i) & (k != but)
@@ -82,153 +88,121 @@ def is_touched(balls, world, cells, i, but, now):
 
 
 @inlined
-def touches_cushion(world, x, y, radius, but):
-    """Return whether a ball at (x, y) is in contact with a cushion other than number `but`."""
-    near = radius + TOUCHING
-    return (
-        (x <= near and but != 0)
-        or (world.length - x <= near and but != 1)
-        or (y <= near and but != 2)
-        or (world.width - y <= near and but != 3)
-    )
-
-
-@inlined
-def rounds_at(balls, a, b, now):
-    """Return how many contacts the more stricken of two balls has had in a rattle up to now."""
-    rounds = balls[a].rounds if now - balls[a].touched < ROUND else 0
-    if b >= 0 and now - balls[b].touched < ROUND:
-        rounds = max(rounds, balls[b].rounds)
-    return rounds
-
-
-@inlined
-def separation_speed(balls, world, a, b, closing, now):
-    """Return the speed in m/s at which the two sides of a contact are to part.
-
-    Restitution times the closing speed; but what meets weakly, and again within a moment, may
-    bounce infinitely often in finite time (inelastic collapse). Then balls part a little faster
-    each time, up to V_MIN, and a ball stays at a cushion.
-    """
-    closing = max(closing, 0.0)
-    if b < 0:
-        again = closing <= V_MIN and now - balls[a].touched < REPEAT_WINDOW
-        return 0.0 if again else world.e_ball_cushion * closing
-    parting = restitution(world, balls[a].is_cue, balls[b].is_cue) * closing
-    if closing > V_MIN:
-        return parting
-    repeats = 0
-    if now - max(balls[a].touched, balls[b].touched) < REPEAT_WINDOW:
-        repeats = min(max(balls[a].repeats, balls[b].repeats) + 1, 20)
-    balls[a].repeats = repeats
-    balls[b].repeats = repeats
-    return max(parting, min(V_MIN, V_ROUNDING * COLLAPSE_GROWTH**repeats))
-
-
-@inlined
-def bring_to(balls, world, i, now):
+def bring_to(state: State, i: int, now: float) -> tuple[float, float]:
     """Begin the motion of ball `i` anew at `now`; return its velocity, m/s."""
-    ball = balls[i]
-    speed = speed_at(ball, now, world.deceleration)
-    ball.x, ball.y = position_at(ball, now, world.deceleration)
+    table, ball = state.table, state.balls[i]
+    velocity = velocity_at(ball, table, now)
+    ball.x, ball.y = position_at(ball, table, now)
     ball.since = now
-    return ball.ux * speed, ball.uy * speed
+    return velocity
 
 
 @inlined
-def set_off(balls, i, velocity, now, log):
+def leave_contact(state: State, i: int, velocity: tuple[float, float], now: float) -> None:
     """Set ball `i` off after a contact."""
-    ball = balls[i]
-    ball.rounds = min(ball.rounds, LAST_ROUND) + 1 if now - ball.touched < ROUND else 1
-    ball.touched = now
-    set_velocity(ball, velocity[0], velocity[1])
-    log_motion(balls, i, now, log)
+    ball = state.balls[i]
+    count_round(ball, now)
+    set_off(ball, state.table, velocity[0], velocity[1])
+    log_motion(state, i, now)
 
 
 @inlined
-def log_motion(balls, i, now, log):
-    """Write down how ball `i` moves from now on."""
-    ball = balls[i]
-    log_segment(log, i, now, ball.x, ball.y, ball.ux, ball.uy, ball.speed)
+def log_motion(state: State, i: int, now: float) -> None:
+    """Write down how ball `i` moves from now on, when its motion has begun."""
+    table, ball = state.table, state.balls[i]
+    velocity, slowing = velocity_at(ball, table, now), acceleration(ball, table)
+    log_segment(state.log, i, now, (ball.x, ball.y), velocity, slowing)
 
 
 @inlined
-def hit_ball(balls, world, a, b, now, log):
-    """Resolve a contact of two balls that nothing else touches."""
-    a, b = min(a, b), max(a, b)
-    va = bring_to(balls, world, a, now)
-    vb = bring_to(balls, world, b, now)
-    nx, ny = contact_normal(balls[b].x - balls[a].x, balls[b].y - balls[a].y)
+def hit_ball(state: State, a: int, b: int, now: float) -> None:
+    """Resolve a contact of two balls, `a` below `b`, that nothing else touches."""
+    table, balls = state.table, state.balls
+    va = bring_to(state, a, now)
+    vb = bring_to(state, b, now)
+    normal = contact_normal(balls[b].x - balls[a].x, balls[b].y - balls[a].y)
+    nx, ny = normal
     closing = (va[0] - vb[0]) * nx + (va[1] - vb[1]) * ny
-    parting = separation_speed(balls, world, a, b, closing, now)
-    inverse_a, inverse_b = balls[a].inverse_mass, balls[b].inverse_mass
-    va, vb = collide_balls(world, va, vb, (nx, ny), inverse_a, inverse_b, parting)
-    log_contact(balls, a, b, nx, ny, closing, now, log)
-    set_off(balls, a, va, now, log)
-    set_off(balls, b, vb, now, log)
+    parting = separation_speed(balls, table, a, b, closing, now)
+    inverse_masses = balls[a].inverse_mass, balls[b].inverse_mass
+    va, vb = collide_balls(table, va, vb, normal, inverse_masses, parting)
+    log_contact(state, a, b, normal, closing, now)
+    leave_contact(state, a, va, now)
+    leave_contact(state, b, vb, now)
 
 
 @inlined
-def hit_cushion(balls, world, a, partner, now, log):
+def hit_cushion(state: State, a: int, partner: int, now: float) -> None:
     """Resolve a contact of a ball that touches nothing but one cushion."""
-    vx, vy = bring_to(balls, world, a, now)
-    nx, ny = cushion_normal(CUSHION_X0 - partner)
-    closing = vx * nx + vy * ny
-    parting = separation_speed(balls, world, a, partner, closing, now)
-    log_contact(balls, a, partner, nx, ny, closing, now, log)
-    if partner >= CUSHION_X1:
-        vx, vy = collide_cushion(world, vx, vy, parting)
-    else:
-        vy, vx = collide_cushion(world, vy, vx, parting)
-    set_off(balls, a, (vx, vy), now, log)
+    table, balls = state.table, state.balls
+    boundary, cushion = table.boundary, cushion_of_partner(partner)
+    velocity = bring_to(state, a, now)
+    normal = cushion_normal(boundary, cushion, balls[a].x, balls[a].y)
+    closing = velocity[0] * normal[0] + velocity[1] * normal[1]
+    parting = separation_speed(balls, table, a, partner, closing, now)
+    log_contact(state, a, partner, normal, closing, now)
+    along, across = to_cushion_axes(boundary, cushion, normal, velocity)
+    along, across = collide_cushion(table, along, across, parting)
+    velocity = from_cushion_axes(boundary, cushion, normal, (along, across))
+    leave_contact(state, a, velocity, now)
 
 
 @kernel
-def gather_crowd(balls, world, cells, cluster, a, b, now):
+def gather_group(state: State, a: int, b: int, now: float) -> tuple[int, int]:
     """Collect the contacts to be resolved together; return their and the balls' number."""
-    if rounds_at(balls, a, b, now) > MAX_ROUNDS:
-        return gather(balls, world, cells, cluster, a, b, now, -1e300)
-    count, members = gather(balls, world, cells, cluster, a, b, now, V_MIN)
+    if rounds_at(state.balls, a, b, now) > MAX_ROUNDS:
+        return gather(state, a, b, now, -np.inf)
+    count, members = gather(state, a, b, now, V_MIN)
     if count == 0:
-        count, members = gather(balls, world, cells, cluster, a, b, now, 0.0)
+        count, members = gather(state, a, b, now, 0.0)
     if count == 0:
-        count, members = take_alone(balls, world, cluster, a, b, now)
+        count, members = take_alone(state, a, b, now)
     return count, members
 
 
 @kernel
-def hit_crowd(balls, world, cluster, count, members, now, log):
-    """Resolve the contacts of a cluster, which `gather_crowd` collected."""
-    rounds = 0
+def hit_group(state: State, count: int, members: int, now: float) -> None:
+    """Resolve the contacts of a group, which `gather_group` collected."""
+    table, balls, group = state.table, state.balls, state.group
+    rounds = most_rounds(balls, group.contacts, count, now)
     for c in range(count):
-        one = cluster.contacts[c]
-        rounds = max(rounds, rounds_at(balls, one.a, one.b, now))
-    for c in range(count):
-        one = cluster.contacts[c]
+        one = group.contacts[c]
         if rounds > MAX_ROUNDS:
             one.separation = V_MIN if one.closing > 0.0 else 0.0
         else:
-            one.separation = separation_speed(balls, world, one.a, one.b, one.closing, now)
+            one.separation = separation_speed(balls, table, one.a, one.b, one.closing, now)
     if rounds > LAST_ROUND:
-        move_as_one(balls, cluster, count, members)
+        move_as_one(balls, group, count, members)
     else:
-        resolve(balls, world, cluster, count, members)
+        resolve(state, count, members)
     for m in range(members):
-        bring_to(balls, world, cluster.members[m], now)
+        bring_to(state, group.members[m], now)
     for c in range(count):
-        one = cluster.contacts[c]
-        log_contact(balls, one.a, one.b, one.nx, one.ny, one.closing, now, log)
+        one = group.contacts[c]
+        log_contact(state, one.a, one.b, (one.nx, one.ny), one.closing, now)
     for m in range(members):
-        i = cluster.members[m]
-        set_off(balls, i, (cluster.vx[i], cluster.vy[i]), now, log)
+        i = group.members[m]
+        leave_contact(state, i, (group.by_ball[i].vx, group.by_ball[i].vy), now)
 
 
 @inlined
-def log_contact(balls, a, b, nx, ny, closing, now, log):
+def most_rounds(balls: NDArray[np.void], contacts: NDArray[np.void], count: int, now: float) -> int:
+    """Return the most that `rounds_at` has for one of the first `count` contacts."""
+    rounds = 0
+    for c in range(count):
+        rounds = max(rounds, rounds_at(balls, contacts[c].a, contacts[c].b, now))
+    return rounds
+
+
+@inlined
+def log_contact(
+    state: State, a: int, b: int, normal: tuple[float, float], closing: float, now: float
+) -> None:
     """Write a contact down."""
-    ball = balls[a]
-    x, y = ball.x + nx * ball.radius, ball.y + ny * ball.radius
+    ball, log = state.balls[a], state.log
+    place = ball.x + normal[0] * ball.radius, ball.y + normal[1] * ball.radius
     if b >= 0:
-        log_event(log, now, BALL_BALL, a, b, x, y, nx, ny, closing)
+        log_event(log, now, BALL_BALL, (a, b), place, normal, closing)
+        log_hit(log, a, b, state.table.cue_ball)
     else:
-        log_event(log, now, CUSHION, a, CUSHION_X0 - b, x, y, nx, ny, closing)
+        log_event(log, now, CUSHION, (a, cushion_of_partner(b)), place, normal, closing)

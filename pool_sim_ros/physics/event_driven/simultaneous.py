@@ -1,84 +1,90 @@
 """What several contacts of one instant do to the balls.
 
-Their normal impulses are found together, as a linear complementarity problem, so that the
-result does not depend on the order of the balls; then comes friction.
+Their normal impulses are found together, as a linear complementarity problem, so that the result
+does not depend on the order of the balls. Friction comes after them.
 """
 
-from pool_sim_ros.physics.contacts.discs import rub_balls, rub_cushion
-from pool_sim_ros.physics.event_driven.contact_group import closing_speed
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics.contacts import rub_balls, rub_cushion
+from pool_sim_ros.physics.event_driven.contact_group import ContactGroup, closing_speed
+from pool_sim_ros.physics.event_driven.state import State
 from pool_sim_ros.physics.jit import kernel
-
-MAX_ITERATIONS = 20_000
-IMPULSE_PRECISION = 1e-14
-"""Change of the separation speeds, beside the speeds, at which the impulses are found."""
+from pool_sim_ros.physics.tolerances import IMPULSE_PRECISION, MAX_ITERATIONS
 
 
 @kernel
-def resolve(balls, world, cluster, count, members):
+def resolve(state: State, count: int, members: int) -> None:
     """Give the members their velocities after all contacts, whose `separation` is set."""
+    balls, group = state.balls, state.group
     if count == 1:
-        one = cluster.contacts[0]
+        one = group.contacts[0]
         needed = one.closing + one.separation
-        one.impulse = max(needed / total_compliance(balls, cluster, 1, 0), 0.0)
-        push(balls, cluster, one, one.impulse)
+        one.impulse = max(needed / total_compliance(balls, group, 1, 0), 0.0)
+        push(balls, group, one, one.impulse)
     else:
-        find_normal_impulses(balls, cluster, count, members)
+        find_normal_impulses(balls, group, count, members)
     for m in range(members):
-        ball = cluster.members[m]
-        cluster.pushes[ball] = 0.0
-        cluster.before_x[ball] = cluster.vx[ball]
-        cluster.before_y[ball] = cluster.vy[ball]
+        member = group.by_ball[group.members[m]]
+        member.pushes = 0.0
+        member.before_x = member.vx
+        member.before_y = member.vy
     for c in range(count):
-        contact = cluster.contacts[c]
+        contact = group.contacts[c]
         if contact.impulse > 0.0:
-            cluster.pushes[contact.a] += 1.0
+            group.by_ball[contact.a].pushes += 1.0
             if contact.b >= 0:
-                cluster.pushes[contact.b] += 1.0
+                group.by_ball[contact.b].pushes += 1.0
     for c in range(count):
-        if cluster.contacts[c].impulse > 0.0:
-            rub(balls, world, cluster, cluster.contacts[c])
+        if group.contacts[c].impulse > 0.0:
+            rub(state, group.contacts[c])
 
 
 @kernel
-def find_normal_impulses(balls, cluster, count, members):
+def find_normal_impulses(
+    balls: NDArray[np.void], group: ContactGroup, count: int, members: int
+) -> None:
     """Apply the least normal impulses after which every contact parts as fast as it must.
 
     Solves ``0 <= L``, ``u(L) >= s``, ``L (u(L) - s) = 0`` for the separation speeds u and those
-    wanted, s, by projected Jacobi from zero with a step of 1 / sum |G_kl|: all contacts at once,
-    and safe where contacts outnumber the freedoms.
+    wanted, s, in m/s. The method is projected Jacobi from zero with a step of 1 / sum |G_kl|: it
+    takes all contacts at once, and is safe where contacts outnumber the freedoms.
     """
     scale = 0.0
     for c in range(count):
-        contact = cluster.contacts[c]
+        contact = group.contacts[c]
         contact.impulse = 0.0
-        contact.compliance = total_compliance(balls, cluster, count, c)
+        contact.compliance = total_compliance(balls, group, count, c)
         scale = max(scale, abs(contact.closing) + contact.separation)
     for m in range(members):
-        ball = cluster.members[m]
-        scale = max(scale, abs(cluster.vx[ball]) + abs(cluster.vy[ball]))
+        member = group.by_ball[group.members[m]]
+        scale = max(scale, abs(member.vx) + abs(member.vy))
     for _ in range(MAX_ITERATIONS):
         largest = 0.0
         for c in range(count):
-            contact = cluster.contacts[c]
-            closing = closing_speed(cluster, contact.a, contact.b, contact.nx, contact.ny)
+            contact = group.contacts[c]
+            closing = closing_speed(group, contact.a, contact.b, contact.nx, contact.ny)
             wanted = (closing + contact.separation) / contact.compliance
             contact.change = max(wanted, -contact.impulse)
             largest = max(largest, abs(contact.change) * contact.compliance)
         for c in range(count):
-            contact = cluster.contacts[c]
+            contact = group.contacts[c]
             contact.impulse += contact.change
-            push(balls, cluster, contact, contact.change)
+            push(balls, group, contact, contact.change)
         if largest <= IMPULSE_PRECISION * scale:
             break
 
 
 @kernel
-def total_compliance(balls, cluster, count, c):
+def total_compliance(balls: NDArray[np.void], group: ContactGroup, count: int, c: int) -> float:
     """Return ``sum_l |G_cl|``: what all impulses together can do to contact `c`, 1/kg."""
-    one = cluster.contacts[c]
+    one = group.contacts[c]
     total = 0.0
     for k in range(count):
-        other = cluster.contacts[k]
+        other = group.contacts[k]
         along = abs(one.nx * other.nx + one.ny * other.ny)
         if other.a == one.a or other.b == one.a:
             total += along * balls[one.a].inverse_mass
@@ -88,75 +94,83 @@ def total_compliance(balls, cluster, count, c):
 
 
 @kernel
-def push(balls, cluster, contact, impulse):
+def push(balls: NDArray[np.void], group: ContactGroup, contact: np.void, impulse: float) -> None:
     """Apply a normal impulse in N s to both sides of a contact."""
     a, b = contact.a, contact.b
-    cluster.vx[a] -= impulse * contact.nx * balls[a].inverse_mass
-    cluster.vy[a] -= impulse * contact.ny * balls[a].inverse_mass
+    one = group.by_ball[a]
+    one.vx -= impulse * contact.nx * balls[a].inverse_mass
+    one.vy -= impulse * contact.ny * balls[a].inverse_mass
     if b >= 0:
-        cluster.vx[b] += impulse * contact.nx * balls[b].inverse_mass
-        cluster.vy[b] += impulse * contact.ny * balls[b].inverse_mass
+        other = group.by_ball[b]
+        other.vx += impulse * contact.nx * balls[b].inverse_mass
+        other.vy += impulse * contact.ny * balls[b].inverse_mass
 
 
 @kernel
-def rub(balls, world, cluster, contact):
+def rub(state: State, contact: np.void) -> None:
     """Apply the friction that goes with a contact's normal impulse.
 
     `coulomb`: from the velocities that the normal impulses left, each ball's mass divided by the
     number of contacts that push it, so that no energy is gained. `report`: one contact after
     the other, as the listing does it.
     """
+    table, balls, group = state.table, state.balls, state.group
     a, b, nx, ny = contact.a, contact.b, contact.nx, contact.ny
     inverse_a = balls[a].inverse_mass
-    if world.coulomb:
-        ta = cluster.before_y[a] * nx - cluster.before_x[a] * ny
-    else:
-        ta = cluster.vy[a] * nx - cluster.vx[a] * ny
+    tangential_a = tangential_velocity(group, a, nx, ny, table.coulomb)
     if b < 0:
         change = contact.impulse * inverse_a
-        after = rub_cushion(ta, change, world.mu_ball_cushion, cluster.pushes[a])
-        turn(cluster, a, nx, ny, after - ta)
+        pushes = group.by_ball[a].pushes
+        after = rub_cushion(tangential_a, change, table.mu_ball_cushion, pushes)
+        turn(group, a, nx, ny, after - tangential_a)
         return
-    if world.coulomb:
-        tb = cluster.before_y[b] * nx - cluster.before_x[b] * ny
-    else:
-        tb = cluster.vy[b] * nx - cluster.vx[b] * ny
+    tangential_b = tangential_velocity(group, b, nx, ny, table.coulomb)
     after_a, after_b = rub_balls(
-        world,
-        ta,
-        tb,
+        table,
+        (tangential_a, tangential_b),
         contact.impulse,
-        inverse_a,
-        balls[b].inverse_mass,
-        cluster.pushes[a],
-        cluster.pushes[b],
+        (inverse_a, balls[b].inverse_mass),
+        (group.by_ball[a].pushes, group.by_ball[b].pushes),
     )
-    turn(cluster, a, nx, ny, after_a - ta)
-    turn(cluster, b, nx, ny, after_b - tb)
+    turn(group, a, nx, ny, after_a - tangential_a)
+    turn(group, b, nx, ny, after_b - tangential_b)
 
 
 @kernel
-def turn(cluster, ball, nx, ny, change):
+def tangential_velocity(
+    group: ContactGroup, ball: int, nx: float, ny: float, before: bool
+) -> float:
+    """Return a member's velocity along the tangent of (nx, ny), `before` friction or now, m/s."""
+    member = group.by_ball[ball]
+    if before:
+        return member.before_y * nx - member.before_x * ny
+    return member.vy * nx - member.vx * ny
+
+
+@kernel
+def turn(group: ContactGroup, ball: int, nx: float, ny: float, change: float) -> None:
     """Change a member's velocity by so much along the tangent of (nx, ny), m/s."""
-    cluster.vx[ball] -= change * ny
-    cluster.vy[ball] += change * nx
+    member = group.by_ball[ball]
+    member.vx -= change * ny
+    member.vy += change * nx
 
 
 @kernel
-def move_as_one(balls, cluster, count, members):
+def move_as_one(balls: NDArray[np.void], group: ContactGroup, count: int, members: int) -> None:
     """Give all members their common velocity, less what goes into a cushion they touch."""
     mass, px, py = 0.0, 0.0, 0.0
     for m in range(members):
-        ball = cluster.members[m]
+        ball = group.members[m]
         mass += 1.0 / balls[ball].inverse_mass
-        px += cluster.vx[ball] / balls[ball].inverse_mass
-        py += cluster.vy[ball] / balls[ball].inverse_mass
+        px += group.by_ball[ball].vx / balls[ball].inverse_mass
+        py += group.by_ball[ball].vy / balls[ball].inverse_mass
     vx, vy = px / mass, py / mass
     for c in range(count):
-        contact = cluster.contacts[c]
-        if contact.b < 0 and vx * contact.nx + vy * contact.ny > 0.0:
-            vx *= abs(contact.ny)
-            vy *= abs(contact.nx)
+        contact = group.contacts[c]
+        into = vx * contact.nx + vy * contact.ny
+        if contact.b < 0 and into > 0.0:
+            vx -= into * contact.nx
+            vy -= into * contact.ny
     for m in range(members):
-        cluster.vx[cluster.members[m]] = vx
-        cluster.vy[cluster.members[m]] = vy
+        member = group.by_ball[group.members[m]]
+        member.vx, member.vy = vx, vy

@@ -1,16 +1,29 @@
-"""How a ball moves between two contacts, and the records that the kernels work on.
+"""The report's motion: a disc slides along a straight line and slows down until it rests.
 
-A ball rolls along a straight line and loses speed at a constant rate until it
-rests, so its position is a parabola in time (report, Equation 10).
+Its speed falls at a constant rate, so its position is a parabola in time (report, Equation 10).
+The functions are the implementations of those in `motion`, which say what each returns.
 """
+
+from __future__ import annotations
 
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from pool_sim_ros.physics.jit import inlined
+from pool_sim_ros.physics.boundary import PHASE_END, Rectangle, distance_to_cushions
+from pool_sim_ros.physics.log import STOP
+from pool_sim_ros.physics.motion.phase import MOVES, RESTS
+from pool_sim_ros.physics.motion.relative import RelativeMotion
+from pool_sim_ros.physics.motion.straight_path import (
+    StraightPath,
+    distance_covered,
+    distance_to_resting_ball,
+    first_on_path,
+    time_to_cover,
+)
 
-BALL = np.dtype(
+DISC = np.dtype(
     [
         ('x', 'f8'),  # position at `since`, m
         ('y', 'f8'),
@@ -19,77 +32,174 @@ BALL = np.dtype(
         ('speed', 'f8'),  # at `since`, m/s; zero at rest
         ('since', 'f8'),  # when this motion began, s
         ('radius', 'f8'),
-        ('contact', 'f8'),  # when its next contact or stop is due, s; inf for none
-        ('crossing', 'f8'),  # when it leaves its cell, s; inf for never
+        ('next_contact_time', 'f8'),  # when its next contact or end of phase is due, s; inf: none
+        ('cell_exit_time', 'f8'),  # when it leaves its cell, s; inf for never
         ('inverse_mass', 'f8'),
-        ('touched', 'f8'),  # when it last was in a contact, s
-        ('partner', 'i4'),  # what it meets at `contact`: a ball, or a cushion or STOP as below
+        ('last_contact_time', 'f8'),  # s
+        ('partner', 'i4'),  # what it meets then: a ball, or as in `boundary`
         ('partner_changes', 'i4'),  # the partner's `changes` when this was found
         ('changes', 'i4'),  # how often its motion has changed
         ('cell_x', 'i4'),
         ('cell_y', 'i4'),
-        ('before', 'i4'),  # the ball before it in its cell; -1 for none
+        ('previous', 'i4'),  # the ball before it in its cell; -1 for none
         ('repeats', 'i2'),  # weak contacts in quick succession, up to now
-        ('rounds', 'i2'),  # contacts in the rattle that `touched` belongs to
-        ('is_cue', 'i4'),
+        ('rounds', 'i2'),  # contacts in the rattle that `last_contact_time` belongs to
+        ('is_cue', 'i2'),
+        ('phase', 'i2'),
     ],
     align=True,
 )
-"""The state of one ball in the event-driven engine: two cache lines."""
-
-STOP = -1
-CUSHION_X0, CUSHION_X1, CUSHION_Y0, CUSHION_Y1 = -2, -3, -4, -5
+"""The state of one disc in the event-driven engine: two cache lines."""
 
 
-class World(NamedTuple):
-    """What the kernels know of the table."""
+class DiscTable(NamedTuple):
+    """What the kernels know of a table on which discs slide; SI units."""
 
-    length: float
-    width: float
+    boundary: Rectangle
     deceleration: float
     mu_ball_ball: float
     mu_ball_cushion: float
     e_cue_ball: float
     e_ball_ball: float
     e_ball_cushion: float
-    coulomb: bool
+    coulomb: bool  # the law of friction between balls; otherwise `report`
+    cue_ball: int  # its number; -1 for none
 
 
-def copied(records: np.ndarray) -> np.ndarray:
-    """Return a copy of records, byte by byte: numpy goes field by field, which takes longer."""
-    return records.view(f'V{records.itemsize}').copy().view(records.dtype)
-
-
-@inlined
-def position_at(ball, t, deceleration):
-    """Return (x, y) in m of a ball whose motion lasts until `t` at least.
-
-    At rest that is exactly where it is: its direction is zero.
-    """
+def position_at(ball, table, t):
     elapsed = t - ball.since
-    way = elapsed * (ball.speed - 0.5 * deceleration * elapsed)
-    return ball.x + ball.ux * way, ball.y + ball.uy * way
+    distance = elapsed * (ball.speed - 0.5 * table.deceleration * elapsed)
+    # At rest that is exactly where it is: its direction is zero.
+    return ball.x + ball.ux * distance, ball.y + ball.uy * distance
 
 
-@inlined
-def speed_at(ball, t, deceleration):
-    """Return the speed in m/s at `t`, zero from the stop on."""
-    return max(ball.speed - deceleration * (t - ball.since), 0.0)
+def velocity_at(ball, table, t):
+    speed = max(ball.speed - table.deceleration * (t - ball.since), 0.0)
+    return ball.ux * speed, ball.uy * speed
 
 
-@inlined
-def stop_time(ball, deceleration):
-    """Return when a moving ball comes to rest if nothing is in its way, s."""
-    return ball.since + ball.speed / deceleration
+def acceleration(ball, table):
+    # Not -0.0 at rest, where a file or a print would show it.
+    return 0.0 - table.deceleration * ball.ux, 0.0 - table.deceleration * ball.uy
 
 
-@inlined
-def set_velocity(ball, vx, vy):
-    """Set off at (vx, vy) in m/s from where the ball is."""
+def set_off(ball, table, vx, vy):
     speed = np.sqrt(vx * vx + vy * vy)
     if speed == 0.0:
-        ball.ux, ball.uy, ball.speed = 0.0, 0.0, 0.0
+        ball.ux, ball.uy, ball.speed, ball.phase = 0.0, 0.0, 0.0, RESTS
     else:
         inverse = 1.0 / speed
-        ball.ux, ball.uy, ball.speed = vx * inverse, vy * inverse, speed
+        ball.ux, ball.uy, ball.speed, ball.phase = vx * inverse, vy * inverse, speed, MOVES
     ball.changes += 1
+
+
+def phase_end_time(ball, table):
+    return ball.since + ball.speed / table.deceleration
+
+
+def end_phase(ball, table, now):
+    distance = 0.5 * ball.speed * ball.speed / table.deceleration
+    ball.x += ball.ux * distance
+    ball.y += ball.uy * distance
+    ball.since = now
+    ball.ux, ball.uy, ball.speed, ball.phase = 0.0, 0.0, 0.0, RESTS
+    ball.changes += 1
+    return STOP
+
+
+def runs_away(ball, table, most):
+    return ball.speed * ball.speed > most * ball.inverse_mass
+
+
+def path_from(ball, table, now):
+    elapsed = now - ball.since
+    distance = elapsed * (ball.speed - 0.5 * table.deceleration * elapsed)
+    speed = max(ball.speed - table.deceleration * elapsed, 0.0)
+    x, y = ball.x + ball.ux * distance, ball.y + ball.uy * distance
+    return StraightPath(x, y, ball.ux, ball.uy, speed)
+
+
+def time_to_boundary(path, table, ball):
+    distance, partner = distance_to_cushions(
+        table.boundary, path.x, path.y, path.ux, path.uy, ball.radius
+    )
+    if 2.0 * table.deceleration * distance < path.speed * path.speed:
+        return time_to_cover(distance, path.speed, table.deceleration), partner
+    return np.inf, PHASE_END
+
+
+def time_to_cell_edge(path, table, x_low, x_high, y_low, y_high):
+    to_x = to_y = np.inf
+    step_x, step_y = 1, 1
+    if path.ux > 0.0:
+        to_x = (x_high - path.x) / path.ux
+    elif path.ux < 0.0:
+        to_x, step_x = (x_low - path.x) / path.ux, -1
+    if path.uy > 0.0:
+        to_y = (y_high - path.y) / path.uy
+    elif path.uy < 0.0:
+        to_y, step_y = (y_low - path.y) / path.uy, -1
+    distance = max(min(to_x, to_y), 0.0)
+    seconds = np.inf
+    if 2.0 * table.deceleration * distance < path.speed * path.speed and distance < np.inf:
+        seconds = time_to_cover(distance, path.speed, table.deceleration)
+    if to_x <= to_y:
+        return seconds, step_x, 0
+    return seconds, 0, step_y
+
+
+def first_resting_ball(path, table, radius, lasts, rows):
+    reach = distance_covered(lasts, path.speed, table.deceleration)
+    distance, ball = first_on_path(path, radius, reach, rows)
+    if ball < 0:
+        return np.inf, ball
+    return time_to_cover(distance, path.speed, table.deceleration), ball
+
+
+def first_resting_of(path, table, radius, lasts, balls, listed, count):
+    nearest, ball = distance_covered(lasts, path.speed, table.deceleration), -1
+    for m in range(count):
+        other = balls[listed[m]]
+        dx, dy = other.x - path.x, other.y - path.y
+        touch = radius + other.radius
+        distance = distance_to_resting_ball(dx, dy, path.ux, path.uy, touch, nearest)
+        if distance < nearest:
+            nearest, ball = distance, listed[m]
+    if ball < 0:
+        return np.inf, ball
+    return time_to_cover(nearest, path.speed, table.deceleration), ball
+
+
+def time_to_resting_ball(path, table, dx, dy, touch):
+    a = table.deceleration
+    reach = np.inf if a == 0.0 else 0.5 * path.speed * path.speed / a
+    distance = distance_to_resting_ball(dx, dy, path.ux, path.uy, touch, reach)
+    return time_to_cover(distance, path.speed, a) if distance < reach else np.inf
+
+
+def relative_motion(path, table, other):
+    a = table.deceleration
+    return RelativeMotion(
+        other.x - path.x,
+        other.y - path.y,
+        other.ux * other.speed - path.ux * path.speed,
+        other.uy * other.speed - path.uy * path.speed,
+        a * (path.ux - other.ux),
+        a * (path.uy - other.uy),
+    )
+
+
+def balls_at_rest(
+    positions: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    masses: NDArray[np.float64],
+    is_cue: NDArray[np.bool_],
+) -> NDArray[np.void]:
+    """Return the records, (n,) of DISC, of balls at rest at (n, 2) positions in m, (n,) kg."""
+    records = np.zeros(len(positions), DISC)
+    records['x'], records['y'] = positions.T
+    records['radius'], records['inverse_mass'] = radii, 1.0 / masses
+    records['is_cue'] = is_cue
+    records['next_contact_time'] = records['cell_exit_time'] = np.inf
+    records['last_contact_time'] = -np.inf
+    return records

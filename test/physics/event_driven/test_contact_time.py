@@ -8,21 +8,23 @@ import oracle_roots
 import pytest
 from mpmath import mp, mpf
 
-from pool_sim_ros.physics.event_driven import contact_time
+from pool_sim_ros.physics.event_driven.contact_time import (
+    gap_from_below,
+    stays_positive,
+    time_to_moving_ball,
+)
+from pool_sim_ros.physics.motion import RelativeMotion
 
 A = 0.980665
 
 
 def relative(position_a, velocity_a, position_b, velocity_b, deceleration):
-    """Return the arguments d, w, g of the compiled kernel, and the first stop."""
+    """Return the motion of b relative to a, and the first stop."""
     speeds = [math.hypot(*velocity) for velocity in (velocity_a, velocity_b)]
     g = [-deceleration * (velocity_b[k] / speeds[1] - velocity_a[k] / speeds[0]) for k in (0, 1)]
-    return (
-        *np.subtract(position_b, position_a),
-        *np.subtract(velocity_b, velocity_a),
-        *g,
-        min(speeds) / deceleration if deceleration > 0 else math.inf,
-    )
+    d, w = np.subtract(position_b, position_a), np.subtract(velocity_b, velocity_a)
+    motion = RelativeMotion(*map(float, (*d, *w, *g)))
+    return motion, min(speeds) / deceleration if deceleration > 0 else math.inf
 
 
 def exact_first_entry(dx, dy, wx, wy, gx, gy, touch, horizon):
@@ -63,12 +65,12 @@ def test_moving_balls_against_exact_roots(spread):
     rng = np.random.default_rng(21)
     hits = skipped = 0
     for pair in random_pairs(rng, 400, spread):
-        *motion, horizon = relative(*pair, A)
+        motion, horizon = relative(*pair, A)
         exact = exact_first_entry(*motion, 0.11, horizon)
         if exact is None:
             skipped += 1
             continue
-        found = contact_time.time_to_moving_ball(*motion, 0.11, horizon)
+        found = time_to_moving_ball(motion, 0.11, horizon)
         if math.isinf(exact):
             assert found == math.inf
         else:
@@ -91,8 +93,8 @@ def test_moving_balls_equal_twin():
     rng = np.random.default_rng(22)
     hits = 0
     for pair in random_pairs(rng, 300, 1.0):
-        *motion, horizon = relative(*pair, A)
-        found = contact_time.time_to_moving_ball(*motion, 0.11, horizon)
+        motion, horizon = relative(*pair, A)
+        found = time_to_moving_ball(motion, 0.11, horizon)
         twin = naive.time_to_moving_ball(*pair, 0.11, A)
         assert found == pytest.approx(twin, rel=1e-9, abs=1e-12)
         hits += math.isfinite(found)
@@ -100,37 +102,32 @@ def test_moving_balls_equal_twin():
 
 
 def test_moving_balls_without_friction_by_hand():
+    def meet(*motion):
+        return time_to_moving_ball(RelativeMotion(*motion, 0.0, 0.0), 0.11, math.inf)
+
     # 2 m/s towards each other, 0.5 m apart, radii 0.11 together: 0.39 m at 2 m/s.
-    found = contact_time.time_to_moving_ball(0.5, 0.0, -2.0, 0.0, 0.0, 0.0, 0.11, math.inf)
-    assert found == pytest.approx(0.195, rel=1e-15)
-    assert (
-        contact_time.time_to_moving_ball(0.5, 0.0, 2.0, 0.0, 0.0, 0.0, 0.11, math.inf) == math.inf
-    )
-    assert (
-        contact_time.time_to_moving_ball(0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.11, math.inf) == math.inf
-    )
+    assert meet(0.5, 0.0, -2.0, 0.0) == pytest.approx(0.195, rel=1e-15)
+    assert meet(0.5, 0.0, 2.0, 0.0) == math.inf
+    assert meet(0.5, 0.0, 0.0, 0.0) == math.inf
     # Passing at 0.12 m is a miss, at 0.10 m a hit.
-    beside = (0.5, 0.12, -2.0, 0.0, 0.0, 0.0, 0.11, math.inf)
-    assert contact_time.time_to_moving_ball(*beside) == math.inf
-    hit = contact_time.time_to_moving_ball(0.5, 0.10, -2.0, 0.0, 0.0, 0.0, 0.11, math.inf)
-    assert hit == pytest.approx((0.5 - math.sqrt(0.11**2 - 0.10**2)) / 2.0, rel=1e-14)
+    assert meet(0.5, 0.12, -2.0, 0.0) == math.inf
+    chord = math.sqrt(0.11**2 - 0.10**2)
+    assert meet(0.5, 0.10, -2.0, 0.0) == pytest.approx((0.5 - chord) / 2.0, rel=1e-14)
 
 
 @pytest.mark.parametrize('gap', [0.0, -1e-12, -1e-9])
 def test_touching_balls_meet_now_if_they_close_and_not_if_they_part(gap):
-    d = 0.11 + gap
-    now = contact_time.time_to_moving_ball(d, 0.0, -1.0, 0.3, 0.0, 0.0, 0.11, 10.0)
-    assert now == 0.0
-    parting = contact_time.time_to_moving_ball(d, 0.0, 1e-4, 0.3, 0.0, 0.0, 0.11, 10.0)
-    assert parting == math.inf
+    closing = RelativeMotion(0.11 + gap, 0.0, -1.0, 0.3, 0.0, 0.0)
+    assert time_to_moving_ball(closing, 0.11, 10.0) == 0.0
+    assert time_to_moving_ball(closing._replace(wx=1e-4), 0.11, 10.0) == math.inf
 
 
 @pytest.mark.parametrize('depth', [1e-3, 1e-6, 1e-9, 1e-12])
 def test_grazing_balls(depth):
     """A pass `depth` closer than the radii is a hit, one `depth` farther a miss."""
     for across, hits in ((0.11 - depth, True), (0.11 + depth, False)):
-        motion = (0.5, across, -2.0, 0.0, 0.1, 0.0)
-        found = contact_time.time_to_moving_ball(*motion, 0.11, 3.0)
+        motion = RelativeMotion(0.5, across, -2.0, 0.0, 0.1, 0.0)
+        found = time_to_moving_ball(motion, 0.11, 3.0)
         assert math.isfinite(found) == hits
         if hits:
             exact = exact_first_entry(*motion, 0.11, 3.0)
@@ -139,49 +136,12 @@ def test_grazing_balls(depth):
             assert exact is None or abs(found - exact) < slack
 
 
-def test_ball_at_rest_against_twin():
-    rng = np.random.default_rng(23)
-    hits = 0
-    for _ in range(1000):
-        velocity = rng.normal(size=2)
-        target = rng.uniform(-0.5, 0.5, 2)
-        if math.hypot(*target) < 0.11:
-            continue
-        speed = math.hypot(*velocity)
-        way = contact_time.way_to_resting_ball(*target, *(velocity / speed), 0.11, math.inf)
-        if way <= speed * speed / (2 * A):
-            found = contact_time.time_to_cover(way, speed, A)
-        else:
-            found = math.inf
-        twin = naive.time_to_ball_at_rest((0.0, 0.0), velocity, target, 0.11, A)
-        assert found == pytest.approx(twin, rel=1e-11)
-        hits += math.isfinite(found)
-    assert hits > 20
-
-
-@pytest.mark.parametrize('speed', [1e-12, 1e-3, 1.0, 100.0])
-@pytest.mark.parametrize('share', [0.0, 1e-15, 0.5, 1.0 - 1e-12, 1.0])
-def test_time_to_cover(speed, share):
-    stopping_way = speed * speed / (2 * A)
-    way = share * stopping_way
-    with mp.workdps(50):
-        under_root = max(mpf(speed) ** 2 - 2 * mpf(A) * mpf(way), mpf(0))
-        exact = float((mpf(speed) - mp.sqrt(under_root)) / mpf(A))
-    found = contact_time.time_to_cover(way, speed, A)
-    # At the very end of the way the root of a rounding, 1e-8 of the whole time, remains.
-    assert found == pytest.approx(exact, rel=1e-7 if share > 0.9 else 1e-14)
-
-
-def test_time_to_cover_without_friction():
-    assert contact_time.time_to_cover(0.5, 2.0, 0.0) == 0.25
-
-
 def test_parabola_never_above_the_squared_gap():
     rng = np.random.default_rng(8)
     for _ in range(500):
         d, w, g = rng.normal(0.0, 0.3, 2), rng.normal(size=2), rng.normal(0.0, 2.0, 2)
         touch, horizon = 0.99 * math.hypot(*d), rng.choice([1e-3, 0.3, 2.0])
-        gap, closing, opening = contact_time.gap_from_below(*d, *w, *g, touch, horizon)
+        gap, closing, opening = gap_from_below(RelativeMotion(*d, *w, *g), touch, horizon)
         t = np.linspace(0.0, horizon, 300)
         distance = np.hypot(*(d + np.outer(t, w) + 0.5 * np.outer(t * t, g)).T)
         squared_gap = distance**2 - touch**2
@@ -190,10 +150,12 @@ def test_parabola_never_above_the_squared_gap():
 
 
 def test_a_gap_of_less_than_rounding_is_none():
-    apart = contact_time.gap_from_below(0.11 + 2e-16, 0.0, 1.0, 0.0, 0.0, 0.0, 0.11, 1.0)
-    touching = contact_time.gap_from_below(math.nextafter(0.11, 1.0), 0, 1.0, 0, 0, 0, 0.11, 1.0)
-    overlapping = contact_time.gap_from_below(0.1, 0.0, 1.0, 0.0, 0.0, 0.0, 0.11, 1.0)
-    assert apart[0] > 0.0 and touching[0] == 0.0 and overlapping[0] == 0.0
+    def gap(distance):
+        return gap_from_below(RelativeMotion(distance, 0.0, 1.0, 0.0, 0.0, 0.0), 0.11, 1.0)[0]
+
+    assert gap(0.11 + 2e-16) > 0.0
+    assert gap(math.nextafter(0.11, 1.0)) == 0.0
+    assert gap(0.1) == 0.0
 
 
 @pytest.mark.parametrize('horizon', [1e-3, 0.3, 2.0, math.inf])
@@ -205,11 +167,11 @@ def test_what_is_said_to_stay_apart_never_touches(horizon):
         place, velocity = rng.normal(0.0, 0.3, 2), rng.normal(0.0, rng.choice([0.01, 1.0]), 2)
         acceleration = rng.normal(0.0, rng.choice([0.0, 1.0]), 2)
         touch = min(0.1, 0.99 * math.hypot(*place))
-        relative_motion = *place, *velocity, *acceleration, touch, horizon
-        parabola = contact_time.gap_from_below(*relative_motion)
-        if contact_time.stays_positive(*parabola, horizon):
+        motion = RelativeMotion(*place, *velocity, *acceleration)
+        parabola = gap_from_below(motion, touch, horizon)
+        if stays_positive(*parabola, horizon):
             said += 1
-            way = place + times * velocity + 0.5 * times**2 * acceleration
-            assert np.hypot(*way.T).min() > touch
-            assert contact_time.time_to_moving_ball(*relative_motion) == math.inf
+            path = place + times * velocity + 0.5 * times**2 * acceleration
+            assert np.hypot(*path.T).min() > touch
+            assert time_to_moving_ball(motion, touch, horizon) == math.inf
     assert said > (0 if horizon == math.inf else 100)

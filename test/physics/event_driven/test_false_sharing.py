@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pool_sim_ros.physics.event_driven.false_sharing import LINE, own_lines
-from pool_sim_ros.physics.motion.disc import BALL
+from pool_sim_ros.physics.motion import DISC
 
 
 class Pair(NamedTuple):
@@ -13,7 +13,7 @@ class Pair(NamedTuple):
 
 
 @pytest.mark.parametrize('shape', [(), (0,), (1,), (3, 5), (16,), (1000,)])
-@pytest.mark.parametrize('dtype', [np.int32, np.float64, BALL])
+@pytest.mark.parametrize('dtype', [np.int32, np.float64, DISC])
 def test_a_copy_is_the_same_and_can_be_written_alone(shape, dtype):
     array = np.random.default_rng(1).integers(0, 100, (*shape, np.dtype(dtype).itemsize), 'u1')
     array = array.view(dtype).reshape(shape)

@@ -1,7 +1,6 @@
 """One motion however it is asked for: cut, taken up again, repeated, or one of many."""
 
 import dataclasses
-import sys
 import threading
 import time
 
@@ -9,7 +8,7 @@ import numpy as np
 import pytest
 from tables import LAWS, random_shots, random_table, random_velocity
 
-from pool_sim_ros.physics import report_table, simulate, simulate_many
+from pool_sim_ros.physics import cores, report_table, shots, simulate, simulate_many
 
 
 @pytest.mark.parametrize('law', LAWS)
@@ -67,7 +66,7 @@ def test_many_shots_are_bit_for_bit_those_played_one_by_one(law, integrator, cou
     table = dataclasses.replace(report_table(), ball_friction=law)
     velocities = np.array([random_velocity(rng) for _ in range(count)])
     options = dict(integrator=integrator, time_slice=1e-4)
-    finals, durations, counts = simulate_many(table, velocities, **options)
+    finals, durations, counts = simulate_many(table, velocities, **options)[:3]
     assert finals.shape == (count, 11, 2)
     for k, velocity in enumerate(velocities):
         shot = simulate(table, velocity, **options)
@@ -82,7 +81,7 @@ def test_many_shots_of_all_balls_with_other_positions_and_until():
     velocities = rng.normal(size=(40, 5, 2))
     mirrored = np.array([table.length, 0.0]) + table.positions * [-1.0, 1.0]
     options = dict(positions=mirrored, until=0.7)
-    finals, durations, counts = simulate_many(table, velocities, **options)
+    finals, durations, counts = simulate_many(table, velocities, **options)[:3]
     for k in range(len(velocities)):
         shot = simulate(table, velocities[k], **options)
         assert finals[k].tobytes() == shot.final_positions.tobytes()
@@ -90,7 +89,7 @@ def test_many_shots_of_all_balls_with_other_positions_and_until():
 
 
 def test_no_shots_at_all():
-    finals, durations, counts = simulate_many(report_table(), np.empty((0, 2)))
+    finals, durations, counts = simulate_many(report_table(), np.empty((0, 2)))[:3]
     assert finals.shape == (0, 11, 2)
     assert durations.shape == counts.shape == (0,)
 
@@ -98,7 +97,7 @@ def test_no_shots_at_all():
 def test_who_interrupts_many_shots_does_not_wait_for_the_other_threads(monkeypatch):
     helper_plays, taken = threading.Event(), []
 
-    def play_many(table, at_rest, velocities, until, ends, parts, alone):
+    def play_parts(table, at_rest, shots_and_layouts, limits, ends, parts, *rest):
         if threading.current_thread() is threading.main_thread():
             assert helper_plays.wait(60.0)
             raise KeyboardInterrupt
@@ -107,10 +106,8 @@ def test_who_interrupts_many_shots_does_not_wait_for_the_other_threads(monkeypat
             taken.append(part)
             time.sleep(0.01)
 
-    module = sys.modules[simulate_many.__module__]
-    monkeypatch.setattr(module.event_driven, 'play_many', play_many)
-    monkeypatch.setattr(module, 'CHUNK', 1)
-    monkeypatch.setattr(module.os, 'sched_getaffinity', lambda _: {0, 1})
+    monkeypatch.setattr(shots, 'play_parts', play_parts)
+    monkeypatch.setattr(cores, 'CHUNK', 1)
     with pytest.raises(KeyboardInterrupt):
-        simulate_many(report_table(), np.full((2000, 2), 0.1))
+        simulate_many(report_table(), np.full((2000, 2), 0.1), threads=2)
     assert 0 < len(taken) < 2000

@@ -1,0 +1,152 @@
+"""What an integrator writes down: its events, and the motions between them."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics.jit import inlined
+
+
+class EventKind(IntEnum):
+    """What an event is."""
+
+    BALL_BALL = 0
+    CUSHION = 1
+    STOP = 2
+
+
+# Plain numbers: numba compiles no enumeration of this sort.
+BALL_BALL = int(EventKind.BALL_BALL)
+CUSHION = int(EventKind.CUSHION)
+STOP = int(EventKind.STOP)
+
+EVENT = np.dtype(
+    [
+        ('t', 'f8'),
+        ('kind', 'i8'),
+        ('a', 'i8'),
+        ('b', 'i8'),
+        ('x', 'f8'),
+        ('y', 'f8'),
+        ('nx', 'f8'),
+        ('ny', 'f8'),
+        ('speed', 'f8'),
+    ]
+)
+"""One contact or stop: see `Trajectory.events`."""
+
+SEGMENT = np.dtype(
+    [
+        ('ball', 'i8'),
+        ('t', 'f8'),
+        ('x', 'f8'),
+        ('y', 'f8'),
+        ('vx', 'f8'),
+        ('vy', 'f8'),
+        ('ax', 'f8'),
+        ('ay', 'f8'),
+    ]
+)
+"""The motion of one ball from `t` on: position in m, velocity in m/s, acceleration in m/s^2."""
+
+N_EVENTS, N_SEGMENTS, FIRST_HIT = 0, 1, 2
+"""Places in `Log.counts`."""
+
+
+class Log(NamedTuple):
+    """Where the kernels write.
+
+    What finds no room is only counted. Whoever needs it makes room for as much, and plays again.
+    Segments are not even counted where there is room for none.
+    """
+
+    events: NDArray[np.void]  # of EVENT
+    segments: NDArray[np.void]  # of SEGMENT
+    counts: NDArray[np.int64]  # events, segments, and the ball that the cue ball hit first
+
+
+def new_log(events: int, segments: int) -> Log:
+    """Return a log with room for so many events and segments."""
+    log = Log(np.empty(events, EVENT), np.empty(segments, SEGMENT), np.empty(3, np.int64))
+    log.counts[:] = 0, 0, -1
+    return log
+
+
+def is_whole(log: Log) -> bool:
+    """Return whether all that was counted found room."""
+    events, segments, _ = log.counts
+    return bool(events <= len(log.events) and segments <= len(log.segments))
+
+
+def with_room(log: Log) -> Log:
+    """Return a log with twice the room that the last shot needed."""
+    events, segments, _ = log.counts.tolist()
+    return new_log(2 * max(events, 1), 2 * max(segments, 1))
+
+
+@inlined
+def clear(log: Log) -> None:
+    """Forget what is in the log."""
+    log.counts[N_EVENTS] = 0
+    log.counts[N_SEGMENTS] = 0
+    log.counts[FIRST_HIT] = -1
+
+
+@inlined
+def log_event(
+    log: Log,
+    t: float,
+    kind: int,
+    sides: tuple[int, int],
+    place: tuple[float, float],
+    normal: tuple[float, float],
+    speed: float,
+) -> None:
+    """Append one event, in s, m and m/s; `sides` are a and b of EVENT."""
+    count = log.counts[N_EVENTS]
+    if count < len(log.events):
+        event = log.events[count]
+        event.t = t
+        event.kind = kind
+        event.a, event.b = sides
+        event.x, event.y = place
+        event.nx, event.ny = normal
+        event.speed = speed
+    log.counts[N_EVENTS] = count + 1
+
+
+@inlined
+def log_segment(
+    log: Log,
+    ball: int,
+    t: float,
+    position: tuple[float, float],
+    velocity: tuple[float, float],
+    acceleration: tuple[float, float],
+) -> None:
+    """Append the motion that `ball` begins at `t`, in s, m, m/s and m/s^2."""
+    if len(log.segments) == 0:
+        return
+    count = log.counts[N_SEGMENTS]
+    if count < len(log.segments):
+        segment = log.segments[count]
+        segment.ball = ball
+        segment.t = t
+        segment.x, segment.y = position
+        segment.vx, segment.vy = velocity
+        segment.ax, segment.ay = acceleration
+    log.counts[N_SEGMENTS] = count + 1
+
+
+@inlined
+def log_hit(log: Log, a: int, b: int, cue_ball: int) -> None:
+    """Note which ball the cue ball hits first, where balls `a` and `b` touch."""
+    if log.counts[FIRST_HIT] < 0:
+        if a == cue_ball:
+            log.counts[FIRST_HIT] = b
+        elif b == cue_ball:
+            log.counts[FIRST_HIT] = a

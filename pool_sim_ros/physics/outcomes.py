@@ -1,0 +1,142 @@
+"""What comes of many shots."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics.log import EVENT
+
+PLAYED, BAD_LAYOUT, TOO_MANY_EVENTS, RUNS_AWAY = 0, 1, 2, 3
+"""Values of `Outcomes.failed`."""
+
+BAD_VELOCITY = 4
+"""The same for a single shot, before it is told in words."""
+
+
+class ShotTooLong(ValueError):  # noqa: N818, the public name
+    """A shot had more events than it may have."""
+
+
+class Shot(NamedTuple):
+    """All of one shot: as `Trajectory` has it, and `failed` as `Outcomes`."""
+
+    failed: int
+    duration: float
+    complete: bool
+    final_positions: NDArray[np.float64]
+    final_velocities: NDArray[np.float64]
+    events: NDArray[np.void]
+    segments: NDArray[np.void]
+    n_events: int
+    first_hit: int
+
+
+class Ends(NamedTuple):
+    """The arrays of `Outcomes` that are written shot by shot, or a part of each."""
+
+    finals: NDArray[np.float64]
+    durations: NDArray[np.float64]
+    event_counts: NDArray[np.int64]
+    first_hit: NDArray[np.int64]
+    failed: NDArray[np.int8]
+
+    def part(self, shots: slice) -> Ends:
+        """Return that of some shots."""
+        return Ends(*(array[shots] for array in self))
+
+
+class Outcomes(NamedTuple):
+    """What comes of m shots with n balls, shot by shot.
+
+    Attributes
+    ----------
+    finals : ndarray of shape (m, n, 2)
+        Where the balls are at the end, m.
+    durations : ndarray of shape (m,)
+        Time until the last ball rests, or `until`, s.
+    event_counts : ndarray of shape (m,)
+        Contacts and stops.
+    pocketed : ndarray of shape (m, n)
+        Number of the pocket in which a ball is, -1 for none.
+    first_hit : ndarray of shape (m,)
+        The ball that the cue ball touches first, -1 for none.
+    failed : ndarray of shape (m,) of int8
+        0 where the shot was played; 1: its layout cannot be, 2: it has too many events, 3: a ball
+        runs away. The others then have NaN and -1 for it.
+    events : structured ndarray of shape (k,), or None
+        All events, one shot after another, with the fields of `Trajectory.events`.
+    offsets : ndarray of shape (m + 1,), or None
+        The events of shot i are ``events[offsets[i]:offsets[i + 1]]``.
+    """
+
+    finals: NDArray[np.float64]
+    durations: NDArray[np.float64]
+    event_counts: NDArray[np.int64]
+    pocketed: NDArray[np.int64]
+    first_hit: NDArray[np.int64]
+    failed: NDArray[np.int8]
+    events: NDArray[np.void] | None
+    offsets: NDArray[np.int64] | None
+
+
+def new_outcomes(shots: int, balls: int, out: Outcomes | None) -> Outcomes:
+    """Return room for what comes of so many shots, in the arrays of `out` where it has them.
+
+    Raises
+    ------
+    ValueError
+        Where one of these has another shape or type.
+    """
+    wanted: dict[str, tuple[tuple[int, ...], type]] = {
+        'finals': ((shots, balls, 2), np.float64),
+        'durations': ((shots,), np.float64),
+        'event_counts': ((shots,), np.int64),
+        'first_hit': ((shots,), np.int64),
+        'failed': ((shots,), np.int8),
+    }
+    arrays = {}
+    for name, (shape, dtype) in wanted.items():
+        given = getattr(out, name, None)
+        arrays[name] = (
+            np.empty(shape, dtype)
+            if given is None
+            else _checked(f'out.{name}', given, shape, dtype)
+        )
+    # Nothing falls into a pocket yet: one number stands for all.
+    pocketed = np.broadcast_to(np.int64(-1), (shots, balls))
+    if out is not None and out.pocketed is not None and out.pocketed.flags.writeable:
+        pocketed = _checked('out.pocketed', out.pocketed, (shots, balls), np.int64)
+        pocketed[...] = -1
+    return Outcomes(pocketed=pocketed, events=None, offsets=None, **arrays)
+
+
+def join_events(outcomes: Outcomes, parts: dict[int, NDArray[np.void]]) -> Outcomes:
+    """Return outcomes with the events of all shots, given those of each part by its first shot."""
+    offsets = np.zeros(len(outcomes.durations) + 1, np.int64)
+    np.cumsum(np.maximum(outcomes.event_counts, 0), out=offsets[1:])
+    pieces = [parts[first] for first in sorted(parts)]
+    events = pieces[0] if len(pieces) == 1 else np.empty(offsets[-1], EVENT)
+    if len(pieces) != 1:
+        # As bytes: numpy copies records field by field, which takes longer.
+        np.concatenate(
+            [as_bytes(piece) for piece in pieces] or [as_bytes(events)], out=as_bytes(events)
+        )
+    return outcomes._replace(events=events, offsets=offsets)
+
+
+def as_bytes(records: NDArray[np.void]) -> NDArray[np.uint8]:
+    """Return a view of records as bytes."""
+    return records.view(np.uint8)
+
+
+def _checked(
+    name: str, array: NDArray[np.generic], shape: tuple[int, ...], dtype: type
+) -> NDArray[np.generic]:
+    right = isinstance(array, np.ndarray) and array.shape == shape and array.dtype == dtype
+    if not (right and array.flags.c_contiguous and array.flags.writeable):
+        kind = np.dtype(dtype).name
+        raise ValueError(f'{name}: must be a writable C-contiguous array of {shape} {kind}')
+    return np.asarray(array)

@@ -1,0 +1,95 @@
+"""Every tolerance and bound of the physics, each with its reason. SI units.
+
+The kernels compile these numbers in: after a change, clear numba's cache (`make test` does).
+"""
+
+# Places
+
+OVERLAP = 1e-9
+"""Overlap in m that a layout may have: a thousand times what rounding makes, and unseen."""
+
+TOUCHING = 1e-9
+"""Gap in m up to which things are in contact at the same instant: what a layout may overlap."""
+
+TOUCH_ROUNDING = 2.0**-51
+"""Part of the square of the distance at contact that rounding may add to or take from it."""
+
+CELL_MARGIN = 1e-6
+"""What a cell is wider than the widest ball, as a part of it: far above rounding."""
+
+PATH_SAG = 1e-5
+"""Distance in m between a curved path and the line that is drawn for it: less than is ever seen."""
+
+# Contact times
+
+MAX_STEPS = 200
+"""Steps towards one contact time. Convergence is quadratic; in a graze it is linear: some 50."""
+
+ROOT_MARGIN = 1e-9
+"""Relative margin within which rounding might decide whether a parabola has a root."""
+
+# Contacts that close slowly, or again and again
+
+V_MIN = 1e-4
+"""Contacts that close slower, in m/s, are weak: they take no part in another's instant, and may
+belong to a collapse, in which balls bounce ever faster."""
+
+V_ROUNDING = 1e-11
+"""Speed in m/s at which a weak contact parts at the least, so that rounding cannot close it."""
+
+COLLAPSE_GROWTH = 4.0
+"""What that speed is multiplied by at each repeat, up to V_MIN: this ends a collapse."""
+
+MAX_REPEATS = 20
+"""Repeats that are counted: after 12 that speed has reached V_MIN."""
+
+REPEAT_WINDOW = 1e-3
+"""Time in s within which a weak contact repeats an earlier one."""
+
+ROUND = 1e-6
+"""Time in s within which a contact belongs to the same rattle as the one before."""
+
+MAX_ROUNDS = 200
+"""Contacts of one ball in a rattle after which it parts from what it touches at V_MIN."""
+
+LAST_ROUND = 250
+"""The same, after which all that touches moves as one: it is wedged and cannot part."""
+
+# Impulses
+
+NO_SLIP = 1e-10
+"""Slip, as a part of the change of normal speed, that is the rounding of a head-on contact."""
+
+MAX_ITERATIONS = 20_000
+"""Iterations for the impulses of one instant; a rack of 15 needs some hundred."""
+
+IMPULSE_PRECISION = 1e-14
+"""Change of the separation speeds, beside the speeds, at which the impulses are found."""
+
+MAX_SPEED = 1e6
+"""Speed of a ball at the start along each axis, m/s: far beyond any shot, and nothing overflows."""
+
+# Shots that do not end
+
+RUNAWAY_GAIN = 100.0
+"""A shot runs away when one ball has this many times the energy that all had at the start."""
+
+RUNAWAY_SPEED = 1e-2
+"""Speed in m/s as which slower ones count for that: weak contacts may add a little energy."""
+
+MOST_EVENTS = 100_000
+"""Events that a shot may have on any table."""
+
+MOST_EVENTS_A_BALL = 1_000
+"""Events that a shot may have for each ball, where that is more."""
+
+# The report's integrator
+
+LOOK_MARGIN = 1e-6
+"""Part by which the look at a pair comes earlier than the two could touch: far above rounding."""
+
+FARTHEST_LOOK = 1_000_000_000
+"""Slices after which a pair is looked at again at the latest."""
+
+COUNTABLE_SLICES = 1e15
+"""Slices that a float still counts one by one."""
