@@ -26,7 +26,7 @@ from std_msgs.msg import String
 from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
 
 from pool_sim_ros.ros import interface
-from pool_sim_ros.simulator.settings import PARAMETERS
+from pool_sim_ros.simulator import PARAMETERS
 
 
 @pytest.fixture(scope='module')
@@ -187,6 +187,7 @@ def test_no_parameter_value_ends_anything(victim, name, value):
         [result] = future.result().results
         assert result.successful or result.reason
     is_served(observer)
+
 
 GARBAGE = Path(__file__).parents[1] / 'support' / 'garbage_requests.py'
 

@@ -9,10 +9,11 @@ from fakes import Recorder
 from waiting import PATIENCE, wait_until
 
 from pool_sim_ros.simulator import runner as runner_module
+from pool_sim_ros.simulator.job import Job
+from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.runner import Runner
-from pool_sim_ros.simulator.settings import build_settings, default_values
+from pool_sim_ros.simulator.settings import build_settings
 from pool_sim_ros.simulator.shot_request import Code, Phase
-from pool_sim_ros.simulator.simulation import Job
 
 SETTINGS = replace(
     build_settings(default_values()), report_integrator='event', real_time_factor=100.0
