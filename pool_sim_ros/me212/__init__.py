@@ -1,7 +1,8 @@
-"""The report itself, *ME 212 Billiards Project Report*: its four shots, its log, what it printed.
+"""The student report, *ME 212 Billiards Project Report*: its four shots, and what it printed.
 
-`shots` says how the cue ball is struck in each, `log` writes Listing 1 character for character, and
-`printed` tells whether a run is the one that the report printed.
+The shots say how the cue ball is struck in each. The log is Listing 1, which others write anew,
+character for character, and compare with the final positions that the report printed; `deviations`
+says why a run cannot end there. The report's table is in `physics`, as is its integrator.
 """
 
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""The report's log (Listing 1), character for character, and what it printed."""
+"""The report's log (Listing 1), character for character, and the positions that it printed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,15 @@ from pool_sim_ros.physics import INCH
 
 
 def format_aim(label: str, attitude: float) -> str:
-    """Return the log's head: the ball that shot 4 is aimed at, and its direction in rad."""
+    """Return the head of the log: the ball at which shot 4 is aimed.
+
+    Parameters
+    ----------
+    label : str
+        Of that ball.
+    attitude : float
+        Direction from the cue ball to it, rad.
+    """
     return (
         f'Closest ball to Cue ball: Ball {label:>2}\n'
         f'Attitude to closest ball: {math.degrees(attitude):7.3f} deg\n'
@@ -24,7 +32,7 @@ def format_shot_head(shot: int | None, velocity: Sequence[float]) -> str:
     Parameters
     ----------
     shot : int or None
-        Its number in the report; None for a strike that is not the report's.
+        Its number in the report; None for any other strike.
     velocity : sequence of 2 floats
         Of the cue ball, m/s.
     """
@@ -36,7 +44,7 @@ def format_shot_head(shot: int | None, velocity: Sequence[float]) -> str:
 
 
 def format_position(label: str, position: Sequence[float]) -> str:
-    """Return the line of one ball, without its end; `position` is (x, y) in m."""
+    """Return the line of one ball, without a newline; `position` is (x, y), m."""
     x, y = (coordinate / INCH for coordinate in position)
     return f'        Ball {label:>2}: [{x:5.2f}, {y:5.2f}] (in)'
 
@@ -46,14 +54,14 @@ def format_shot(
     velocity: Sequence[float],
     positions: Iterable[tuple[str, Sequence[float]]],
 ) -> str:
-    """Return one shot as the log has it.
+    """Return the lines of one shot.
 
     Parameters
     ----------
     shot, velocity
         As in `format_shot_head`.
     positions : iterable of (label, (x, y))
-        Where each ball stopped, m.
+        Final position of each ball, m.
     """
     lines = [format_position(label, position) + '\n' for label, position in positions]
     return format_shot_head(shot, velocity) + ''.join(lines)
@@ -71,9 +79,9 @@ def format_log(
     shots : iterable of (shot, velocity, positions)
         Each as in `format_shot`.
     aim : (str, float) or None
-        As in `format_aim`; None where shot 4 has nothing to aim at.
+        As in `format_aim`; None where the cue ball is alone.
     remark : str, optional
-        A line at the top, which the report's log has not.
+        A line at the top; the report's log has none.
     """
     parts = [remark + '\n'] if remark else []
     if aim:
@@ -82,22 +90,21 @@ def format_log(
 
 
 def inches(coordinate: float) -> float:
-    """Return a length in m in inches, rounded to two decimals as the log prints it."""
+    """Return a length, given in m, in inches with two decimals, rounded as in the log."""
     return float(f'{coordinate / INCH:.2f}')
 
 
 def published_final_positions() -> dict[int, dict[str, tuple[float, float]]]:
-    """Return where the report printed that the balls stop.
+    """Return the final positions that the report printed.
 
     Returns
     -------
     dict
         Shot -> label -> (x, y), inches to two decimals.
     """
-    source = resources.files(__package__).joinpath('published_final_positions.csv')
+    text = resources.files(__package__).joinpath('published_final_positions.csv').read_text('utf-8')
     shots: dict[int, dict[str, tuple[float, float]]] = {}
-    with source.open(encoding='utf-8', newline='') as file:
-        for row in csv.DictReader(file):
-            place = float(row['x_in']), float(row['y_in'])
-            shots.setdefault(int(row['shot']), {})[row['ball']] = place
+    for row in csv.DictReader(text.splitlines()):
+        position = float(row['x_in']), float(row['y_in'])
+        shots.setdefault(int(row['shot']), {})[row['ball']] = position
     return shots

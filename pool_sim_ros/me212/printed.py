@@ -1,4 +1,4 @@
-"""Whether a run is the one that the report printed."""
+"""Whether a run is the run that the report printed, and how it differs."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from pool_sim_ros.physics import REPORT_TIME_SLICE, Table, report_table
 
 
 def is_report_table(table: Table) -> bool:
-    """Return whether balls move on this table as on the report's; colours do not matter."""
+    """Return whether this is the report's table; colours do not count."""
     return _without_colors(table) == _without_colors(report_table())
 
 
 def deviations(table: Table, integrator: str, time_slice: float) -> list[str]:
-    """Return in words all that differs from the run that the report printed; empty = nothing.
+    """Return the differences from the run that the report printed, in words; empty = none.
 
     Parameters
     ----------
     table : Table
     integrator : str
-        The one that plays the report's shots.
+        The one that plays the shots of the report.
     time_slice : float
-        s.
+        Slice of the integrator `time_slice`, s.
     """
     found = []
     if not is_report_table(table):

@@ -1,4 +1,4 @@
-"""The report's four shots (Listing 2)."""
+"""The velocities of the cue ball in the report's four shots (Listing 2)."""
 
 from __future__ import annotations
 
@@ -11,13 +11,20 @@ if TYPE_CHECKING:
 SHOT_NUMBERS = (1, 2, 3, 4)
 
 _SPEEDS_AND_ANGLES = {1: (4.0, 0.0), 2: (2.5, 15.0), 3: (1.5, 30.0)}
+"""m/s, and degrees from -x towards +y."""
+
 _SPEED_TO_NEAREST = 1.5
+"""Speed of shot 4, m/s."""
 
 
 def nearest_ball(table: Table) -> int:
     """Return the index of the ball nearest to the cue ball on the start layout.
 
-    Of several at one distance, the first (Listing 3, `find_nearest`).
+    If several are equally near, it is the first of them (Listing 3, `find_nearest`).
+
+    Parameters
+    ----------
+    table : Table
 
     Raises
     ------
@@ -31,7 +38,10 @@ def nearest_ball(table: Table) -> int:
 
 
 def attitude_to_nearest(table: Table) -> float:
-    """Return the direction from the cue ball to the ball nearest to it, rad from the x axis."""
+    """Return the direction from the cue ball to the nearest ball, rad counterclockwise from +x.
+
+    Raises ValueError where the cue ball is alone.
+    """
     cue, nearest = table.balls[0].position, table.balls[nearest_ball(table)].position
     return math.atan2(nearest[1] - cue[1], nearest[0] - cue[0])
 
@@ -44,7 +54,7 @@ def cue_velocity(shot: int, table: Table) -> tuple[float, float]:
     shot : int
         1 to 4.
     table : Table
-        Shot 4 is aimed at the ball nearest to the cue ball on its start layout.
+        Shot 4 is aimed at the ball nearest to the cue ball in its start layout.
 
     Returns
     -------
@@ -54,7 +64,7 @@ def cue_velocity(shot: int, table: Table) -> tuple[float, float]:
     Raises
     ------
     ValueError
-        Where there is no such shot, or shot 4 has nothing to aim at.
+        Where there is no such shot, or the cue ball is alone in shot 4.
     """
     if shot == 4:
         angle = attitude_to_nearest(table)

@@ -13,6 +13,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from pool_sim_ros.simulator import SECOND_NS
+
 LITTLE_ENDIAN = b'\0\1\0\0'
 """What precedes every message; numbers are aligned to what follows it."""
 
@@ -25,8 +27,6 @@ POSE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 SHAPES_KEPT = 64
 """Numbers of rows whose layout is kept: more collisions than that in one frame are rare."""
-
-SECOND_NS = 1_000_000_000
 
 
 class PosesWriter:

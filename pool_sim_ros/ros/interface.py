@@ -93,7 +93,7 @@ BALL_VELOCITIES = Topic(
 COLLISIONS = Topic(
     'collisions',
     Float64MultiArray,
-    'before the frame that contains them: rows of shot_request.COLLISION_COLUMNS. seq counts from '
+    'before the frame that contains them: rows of simulator.COLLISION_COLUMNS. seq counts from '
     '0 and is never reset; t is sim time, s; kind 0 is ball a on ball b, kind 1 is ball a on '
     'cushion b (0: x = 0, 1: x = length, 2: y = 0, 3: y = width); x, y the point of contact, m; '
     'nx, ny the unit vector from a to b or into the cushion; speed of closing, m/s',

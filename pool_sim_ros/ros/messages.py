@@ -12,20 +12,18 @@ from geometry_msgs.msg import Pose, PoseArray, Twist, Vector3
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension, String
 
-from pool_sim_ros.simulator import COLLISION_COLUMNS, VELOCITY_COLUMNS, Report
-
-_SECOND_NS = 1_000_000_000
+from pool_sim_ros.simulator import COLLISION_COLUMNS, SECOND_NS, VELOCITY_COLUMNS, Diagnosis
 
 
 def to_time(stamp: int) -> Time:
     """Return a sim time in ns as a message."""
-    seconds, nanoseconds = divmod(stamp, _SECOND_NS)
+    seconds, nanoseconds = divmod(stamp, SECOND_NS)
     return Time(sec=seconds, nanosec=nanoseconds)
 
 
 def from_time(time: Time) -> int:
     """Return the ns of a time."""
-    return time.sec * _SECOND_NS + time.nanosec
+    return time.sec * SECOND_NS + time.nanosec
 
 
 def to_clock(stamp: int) -> Clock:
@@ -88,14 +86,14 @@ def from_rows(message: Float64MultiArray) -> np.ndarray:
     return np.array(message.data, dtype=float).reshape(rows, columns)
 
 
-def to_diagnostics(name: str, stamp: int, report: Report) -> DiagnosticArray:
+def to_diagnostics(name: str, stamp: int, diagnosis: Diagnosis) -> DiagnosticArray:
     """Return how the node of this full name is doing, at a sim time in ns."""
     status = DiagnosticStatus(
-        level=DiagnosticStatus.WARN if report.warning else DiagnosticStatus.OK,
+        level=DiagnosticStatus.WARN if diagnosis.warning else DiagnosticStatus.OK,
         name=f'{name}: simulation',
-        message=report.warning or 'running',
+        message=diagnosis.warning or 'running',
         hardware_id=name,
-        values=[KeyValue(key=key, value=value) for key, value in report.values.items()],
+        values=[KeyValue(key=key, value=value) for key, value in diagnosis.values.items()],
     )
     message = DiagnosticArray(status=[status])
     message.header.stamp = to_time(stamp)

@@ -14,8 +14,8 @@ from pool_sim_ros.simulator import (
     COLLISION_COLUMNS,
     VELOCITY_COLUMNS,
     Block,
+    Diagnosis,
     Frame,
-    Report,
     Response,
     Settings,
     table_to_json,
@@ -93,10 +93,10 @@ class Publishers:
         """Send the table that counts from the next strike."""
         self._table.publish(messages.to_string(table_to_json(settings.table)))
 
-    def diagnostics(self, stamp: int, report: Report) -> None:
+    def diagnostics(self, stamp: int, diagnosis: Diagnosis) -> None:
         """Send how the node is doing, at a sim time in ns."""
         name = self._node.get_fully_qualified_name()
-        self._diagnostics.publish(messages.to_diagnostics(name, stamp, report))
+        self._diagnostics.publish(messages.to_diagnostics(name, stamp, diagnosis))
 
     def tell(self, line: str) -> None:
         """Write to the log."""

@@ -1,8 +1,9 @@
-"""A table over time: requests in, responses and frames out. No ROS, and no clock but the pacer's.
+"""A table over time, without ROS: requests go in, responses and frames come out.
 
-`settings` are the parameters, `shot_request` what is asked and answered. `simulation` plays it
-tick by tick with `playback`; `runner` has the threads. `command_log` and `replay` play a session
-again.
+A `Runner` plays a `Simulation` in real time with two threads, and hands what it plays to an
+`Output`; the `Pacer` is its only clock. `Settings` are the parameters, checked. A `CommandLog`
+records what changed the frames, and `replay_frames` plays it again, bit for bit. Clients use the
+formats: the columns of a `Frame`, the JSON of requests, responses and tables, and sim time.
 """
 
 from typing import TYPE_CHECKING
@@ -11,57 +12,63 @@ from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
-    from pool_sim_ros.simulator.health import Report
+    from pool_sim_ros.simulator.frame import COLLISION_COLUMNS, VELOCITY_COLUMNS, Block, Frame
+    from pool_sim_ros.simulator.health import Diagnosis
+    from pool_sim_ros.simulator.output import Output
     from pool_sim_ros.simulator.pacer import Pacer
-    from pool_sim_ros.simulator.playback import Block, Frame
-    from pool_sim_ros.simulator.replay import replay_frames
-    from pool_sim_ros.simulator.runner import Runner
-    from pool_sim_ros.simulator.settings import (
+    from pool_sim_ros.simulator.parameter_table import (
         PARAMETERS,
         Change,
-        ParameterError,
         ParameterSpec,
-        Settings,
-        build_settings,
-        coerce,
         default_values,
-        values_from,
     )
-    from pool_sim_ros.simulator.shot_request import (
-        COLLISION_COLUMNS,
-        VELOCITY_COLUMNS,
-        Phase,
-        Response,
+    from pool_sim_ros.simulator.parameter_values import ParameterError, coerce, values_from
+    from pool_sim_ros.simulator.replay import replay_frames
+    from pool_sim_ros.simulator.runner import Runner
+    from pool_sim_ros.simulator.settings import Settings, build_settings
+    from pool_sim_ros.simulator.shot_request import Phase, Response
+    from pool_sim_ros.simulator.sim_time import (
+        NANOSECOND,
+        SECOND_NS,
+        seconds_to_stamp,
+        stamp_to_seconds,
     )
+    from pool_sim_ros.simulator.simulation import Simulation
     from pool_sim_ros.simulator.table_json import table_from_json, table_to_json
 else:
     __getattr__ = lazy_exports(
         __name__,
         {
-            'Block': 'playback',
-            'COLLISION_COLUMNS': 'shot_request',
-            'Change': 'settings',
+            'Block': 'frame',
+            'COLLISION_COLUMNS': 'frame',
+            'Change': 'parameter_table',
             'CommandLog': 'command_log',
-            'Frame': 'playback',
+            'Diagnosis': 'health',
+            'Frame': 'frame',
             'LogError': 'command_log',
-            'PARAMETERS': 'settings',
+            'NANOSECOND': 'sim_time',
+            'Output': 'output',
+            'PARAMETERS': 'parameter_table',
             'Pacer': 'pacer',
-            'ParameterError': 'settings',
-            'ParameterSpec': 'settings',
+            'ParameterError': 'parameter_values',
+            'ParameterSpec': 'parameter_table',
             'Phase': 'shot_request',
-            'Report': 'health',
             'Response': 'shot_request',
             'Runner': 'runner',
+            'SECOND_NS': 'sim_time',
             'Settings': 'settings',
-            'VELOCITY_COLUMNS': 'shot_request',
+            'Simulation': 'simulation',
+            'VELOCITY_COLUMNS': 'frame',
             'build_settings': 'settings',
-            'coerce': 'settings',
-            'default_values': 'settings',
+            'coerce': 'parameter_values',
+            'default_values': 'parameter_table',
             'read_log': 'command_log',
             'replay_frames': 'replay',
+            'seconds_to_stamp': 'sim_time',
+            'stamp_to_seconds': 'sim_time',
             'table_from_json': 'table_json',
             'table_to_json': 'table_json',
-            'values_from': 'settings',
+            'values_from': 'parameter_values',
         },
     )
 
@@ -70,23 +77,29 @@ __all__ = [
     'COLLISION_COLUMNS',
     'Change',
     'CommandLog',
+    'Diagnosis',
     'Frame',
     'LogError',
+    'NANOSECOND',
+    'Output',
     'PARAMETERS',
     'Pacer',
     'ParameterError',
     'ParameterSpec',
     'Phase',
-    'Report',
     'Response',
     'Runner',
+    'SECOND_NS',
     'Settings',
+    'Simulation',
     'VELOCITY_COLUMNS',
     'build_settings',
     'coerce',
     'default_values',
     'read_log',
     'replay_frames',
+    'seconds_to_stamp',
+    'stamp_to_seconds',
     'table_from_json',
     'table_to_json',
     'values_from',

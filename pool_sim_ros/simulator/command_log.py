@@ -1,6 +1,6 @@
-"""The log of a session: every (tick, command) that changed what the frames show, as JSON lines.
+"""The command log: every command that changed what the frames show, with its tick, as JSON lines.
 
-The first line has the parameters. Then come, each with the tick whose frame first shows it:
+The first line has the parameters. Each further line has a command and the first tick that shows it:
 
     {"tick": 12, "command": "set", "parameters": {"table.e_cue_ball": 0.95}}
     {"tick": 12, "command": "strike", "velocity": [-4.0, 0.0]}
@@ -9,27 +9,23 @@ The first line has the parameters. Then come, each with the tick whose frame fir
     {"tick": 150, "command": "place", "positions": [[0.5, 0.5], [1.0, 0.5]]}
     {"tick": 200, "command": "end"}
 
-Whatever was rejected, overtaken or never started is not in it; a pause shows no frames and needs no
-line. Numbers are written so that they are read back bit for bit.
+A command that was rejected, was overtaken or never started a shot is not in it; nor is a pause,
+which shows no frames. Numbers are written so that they are read back bit for bit.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 import numpy as np
+from numpy.typing import NDArray
 
-from pool_sim_ros.simulator.settings import (
-    PARAMETERS,
-    ParameterError,
-    Settings,
-    build_settings,
-    coerce,
-    values_of,
-)
+from pool_sim_ros.simulator.parameter_table import PARAMETERS
+from pool_sim_ros.simulator.parameter_values import coerce_all
+from pool_sim_ros.simulator.settings import Settings, build_settings, values_of
 
 FORMAT = 'pool_sim_ros command log'
 VERSION = 1
@@ -37,7 +33,7 @@ VERSION = 1
 MAX_LINE = 10_000_000
 """Characters of a line that are read: a layout of 100 000 balls has half of it."""
 
-KEYS = {
+KEYS: dict[str, set[str]] = {
     'set': {'parameters'},
     'strike': {'velocity'},
     'shot': {'shot'},
@@ -45,6 +41,7 @@ KEYS = {
     'place': {'positions'},
     'end': set(),
 }
+"""The keys of each command, beside tick and command."""
 
 
 class LogError(ValueError):
@@ -52,15 +49,15 @@ class LogError(ValueError):
 
 
 class CommandLog:
-    """Writes the log; a line is in the file as soon as it is written.
+    """Writes a command log; each line is in the file as soon as its command is noted.
 
     Parameters
     ----------
     path : str
-        Must not exist yet: a session is not to overwrite another.
+        Must not exist yet, so that no log is overwritten.
     settings : Settings
     on_error : callable, optional
-        Called once, with words, where a line cannot be written; the log ends there.
+        Called once, with a message, where a line cannot be written; the log ends there.
 
     Raises
     ------
@@ -80,16 +77,16 @@ class CommandLog:
         except FileExistsError:
             raise LogError(f'{path} exists; name a new file for the log') from None
         except (OSError, ValueError) as error:
-            raise LogError(f'{path} cannot be written: {_words(error)}') from None
+            raise LogError(f'{path} cannot be written: {_cause(error)}') from None
         self._write({'format': FORMAT, 'version': VERSION, 'parameters': self._values})
 
-    def layout(self, tick: int, positions: np.ndarray | None) -> None:
+    def layout(self, tick: int, positions: NDArray[np.float64] | None) -> None:
         """Note that this tick shows the balls at (n, 2) positions in m; None: the start layout."""
         if positions is None:
             self._write({'tick': tick, 'command': 'reset'})
         else:
-            places = positions.tolist()
-            self._write({'tick': tick, 'command': 'place', 'positions': places})
+            rows = positions.tolist()
+            self._write({'tick': tick, 'command': 'place', 'positions': rows})
 
     def strike(
         self,
@@ -98,7 +95,19 @@ class CommandLog:
         shot: int | None,
         velocity: tuple[float, float],
     ) -> None:
-        """Note the tick that starts a shot, the settings that it is played with, and the shot."""
+        """Note a shot.
+
+        Parameters
+        ----------
+        tick : int
+            The one that starts it.
+        settings : Settings
+            Those at its strike; what has changed since the last shot is noted first.
+        shot : int or None
+            Number of a report shot.
+        velocity : tuple of float
+            Of the cue ball in any other shot, m/s.
+        """
         values = values_of(settings)
         changed = {name: value for name, value in values.items() if value != self._values[name]}
         if changed:
@@ -124,18 +133,22 @@ class CommandLog:
             self._file.flush()
         except OSError as error:
             self._file = None  # not closed: that would try to write once more
-            self._on_error(f'recording ends here: {self._path} cannot be written: {_words(error)}')
+            self._on_error(f'recording ends here: {self._path} cannot be written: {_cause(error)}')
 
 
-def read_log(path: str | Path) -> tuple[Settings, list[dict]]:
-    """Read a log.
+def read_log(path: str | Path) -> tuple[Settings, list[dict[str, Any]]]:
+    """Read a command log.
+
+    Parameters
+    ----------
+    path : str or Path
 
     Returns
     -------
     settings : Settings
         At the start.
     commands : list of dict
-        As they were written; the ticks never go back.
+        As they were written, positions as (n, 2) arrays in m; the ticks never go back.
 
     Raises
     ------
@@ -146,11 +159,12 @@ def read_log(path: str | Path) -> tuple[Settings, list[dict]]:
         with open(path, encoding='utf-8') as file:
             lines = list(_lines(file))
     except (OSError, UnicodeDecodeError) as error:
-        raise LogError(f'{path} cannot be read: {_words(error)}') from None
-    number = 1  # in the words about an error
+        raise LogError(f'{path} cannot be read: {_cause(error)}') from None
+    number = 1
     try:
         settings = _header(lines[0] if lines else '')
-        commands, tick, ended = [], 0, False
+        commands: list[dict[str, Any]] = []
+        tick, ended = 0, False
         for number, line in enumerate(lines[1:], 2):  # noqa: B007
             _require(not ended, 'nothing may follow the end')
             command = _command(line, tick)
@@ -161,10 +175,10 @@ def read_log(path: str | Path) -> tuple[Settings, list[dict]]:
     return settings, commands
 
 
-def _lines(file: TextIO):
+def _lines(file: TextIO) -> Iterator[str]:
     while line := file.readline(MAX_LINE):
         if not line.endswith('\n'):
-            return  # what was being written when the node was killed
+            return  # the node was killed while it wrote this line
         yield line
 
 
@@ -173,22 +187,25 @@ def _header(line: str) -> Settings:
     _require(fields.get('format') == FORMAT, f'this is not a {FORMAT}')
     _require(fields.get('version') == VERSION, f'the version must be {VERSION}')
     values = fields.get('parameters')
-    right = isinstance(values, dict) and set(values) == set(PARAMETERS)
-    _require(right, 'parameters must have every parameter, and no other')
-    return build_settings(coerced(values))
+    if not isinstance(values, dict) or set(values) != set(PARAMETERS):
+        raise ValueError('parameters must have every parameter, and no other')
+    return build_settings(coerce_all(values))
 
 
-def _command(line: str, tick: int) -> dict:
+def _command(line: str, tick: int) -> dict[str, Any]:
     fields = _object(line)
     name = fields.get('command')
-    _require(isinstance(name, str) and name in KEYS, f'command must be one of {", ".join(KEYS)}')
+    if not isinstance(name, str) or name not in KEYS:
+        raise ValueError(f'command must be one of {", ".join(KEYS)}')
     keys = KEYS[name] | {'tick', 'command'}
     _require(set(fields) == keys, f'{name} must have the keys {", ".join(sorted(keys))}')
     whole = type(fields['tick']) is int and fields['tick'] >= tick
     _require(whole, f'tick must be a whole number, {tick} or later')
     if name == 'set':
         _require(isinstance(fields['parameters'], dict), 'parameters must be an object')
-        fields['parameters'] = coerced(fields['parameters'])
+        fields['parameters'] = coerce_all(fields['parameters'])
+    if name == 'shot':
+        _require(type(fields['shot']) is int, 'shot must be a whole number')
     if name == 'place':
         fields['positions'] = _array(fields['positions'], 2)
     if name == 'strike':
@@ -198,37 +215,30 @@ def _command(line: str, tick: int) -> dict:
     return fields
 
 
-def coerced(values: Mapping[str, object]) -> dict[str, object]:
-    """Return parameters in their own types; raise ParameterError where one cannot be."""
-    for name in values:
-        if name not in PARAMETERS:
-            raise ParameterError(f'{name} is not a parameter')
-    return {name: coerce(name, value) for name, value in values.items()}
-
-
-def _array(values: object, dimensions: int) -> np.ndarray:
+def _array(values: object, dimensions: int) -> NDArray[np.float64]:
     try:
         array = np.array(values, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         array = np.empty(())
-    right = array.ndim == dimensions and np.isfinite(array).all()
-    _require(bool(right), 'the numbers must be finite, and as many in each row')
+    good = array.ndim == dimensions and bool(np.isfinite(array).all())
+    _require(good, 'the numbers must be finite, and as many in each row')
     return array
 
 
-def _object(line: str) -> dict:
+def _object(line: str) -> dict[str, Any]:
     try:
         fields = json.loads(line)
     except (ValueError, RecursionError):
         fields = None
-    _require(isinstance(fields, dict), 'this is not a JSON object')
+    if not isinstance(fields, dict):
+        raise ValueError('this is not a JSON object')
     return fields
 
 
-def _require(good: bool, words: str) -> None:
+def _require(good: bool, message: str) -> None:
     if not good:
-        raise ValueError(words)
+        raise ValueError(message)
 
 
-def _words(error: Exception) -> str:
+def _cause(error: Exception) -> str:
     return getattr(error, 'strerror', None) or str(error)

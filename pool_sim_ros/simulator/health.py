@@ -1,4 +1,4 @@
-"""How the simulator is doing, as `/diagnostics` tells; no ROS, no clock."""
+"""How the simulator is doing, as `/diagnostics` says; no ROS, no clock."""
 
 from __future__ import annotations
 
@@ -7,22 +7,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:  # clients format reports too, and need no physics
+from pool_sim_ros.simulator.sim_time import stamp_to_seconds
+
+if TYPE_CHECKING:  # clients use `Diagnosis` too, and need no physics
     from pool_sim_ros.physics import Trajectory
 
 ENERGY_SAMPLES = 1000
-"""Events of a shot after which its energy is looked up: it bounds the memory for a long shot."""
+"""Most events of a shot after which its energy is looked up: it bounds the memory."""
 
 ENERGY_ROUNDING = 1e-9
-"""Relative rise of the energy that is rounding."""
+"""Relative rise of the energy that is taken for rounding."""
 
 REASON_LENGTH = 200
 """Characters of the last rejection that are shown: a client may send long names."""
 
 
 @dataclass(frozen=True)
-class Report:
-    """What is told once a second.
+class Diagnosis:
+    """How the simulator has been doing for a second.
 
     Attributes
     ----------
@@ -37,7 +39,7 @@ class Report:
 
 
 class Health:
-    """Collects, between two reports, what they tell."""
+    """Collects what the next diagnosis says."""
 
     def __init__(self) -> None:
         self._rejected = 0
@@ -49,7 +51,7 @@ class Health:
         self._before: tuple[float, int, int] | None = None
 
     def frame(self, lateness: float) -> None:
-        """Note a frame that was so many seconds late."""
+        """Note a frame that was `lateness` seconds late."""
         self._worst_lateness = max(self._worst_lateness, lateness)
 
     def rejected(self, reason: str) -> None:
@@ -67,16 +69,16 @@ class Health:
         energy_rise : float or None
             As `energy_rise` returns it; None where the shot could not be computed.
         may_rise : bool
-            Whether the law of friction between balls has no bound on the energy.
+            Whether the law of friction between balls may let the energy rise.
         """
         self._compute_time = compute_time
         self._energy_rise = energy_rise
         self._may_rise = may_rise
 
-    def report(
+    def diagnose(
         self, now: float, stamp: int, real_time_factor: float, ticks_behind: int, slips: int
-    ) -> Report:
-        """Return what is to be told, and begin the next period.
+    ) -> Diagnosis:
+        """Return the diagnosis since the one before, and begin the next period.
 
         Parameters
         ----------
@@ -85,16 +87,16 @@ class Health:
         stamp : int
             Sim time, ns.
         real_time_factor : float
-            What is aimed at; 0 = as fast as possible.
+            Sim seconds per wall second that are aimed at; 0 = as fast as possible.
         ticks_behind : int
             Frames that are due and not yet shown.
         slips : int
-            How often, since the start, the pace was too much and time slipped.
+            How often the simulator could not keep up since the start, so that time slipped.
         """
         before, self._before = self._before, (now, stamp, slips)
         speed = 'unknown'
         if before is not None and now > before[0]:
-            speed = f'{(stamp - before[1]) * 1e-9 / (now - before[0]):.3f}'
+            speed = f'{stamp_to_seconds(stamp - before[1]) / (now - before[0]):.3f}'
         lateness, self._worst_lateness = self._worst_lateness, 0.0
         values = {
             'achieved speed (sim s / s)': speed,
@@ -108,7 +110,7 @@ class Health:
             'energy rise of the last shot (relative)': _number(self._energy_rise),
             'energy check': self._energy_check(),
         }
-        return Report(self._warning(slips - before[2] if before else 0), values)
+        return Diagnosis(self._warning(slips - before[2] if before else 0), values)
 
     def _energy_check(self) -> str:
         if self._energy_rise is None:

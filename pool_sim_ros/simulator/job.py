@@ -1,10 +1,11 @@
-"""A shot to compute."""
+"""A shot to compute: made at the strike, computed later and elsewhere."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pool_sim_ros.physics import Table, Trajectory, simulate
 from pool_sim_ros.simulator.settings import Settings
@@ -12,17 +13,31 @@ from pool_sim_ros.simulator.settings import Settings
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """A shot to compute: everything that `simulate` needs, as it was at the strike."""
+    """A shot to compute: everything that `simulate` needs, as it was at the strike.
+
+    Attributes
+    ----------
+    table : Table
+    velocity : tuple of float
+        Of the cue ball, m/s.
+    positions : ndarray of shape (n, 2)
+        Where the balls start, m.
+    integrator : str
+    time_slice : float
+        Slice of the integrator `time_slice`, s.
+    until : float
+        Longest duration, s; a shot that would last longer is cut there.
+    """
 
     table: Table
     velocity: tuple[float, float]
-    positions: np.ndarray
+    positions: NDArray[np.float64]
     integrator: str
     time_slice: float
     until: float
 
     def run(self) -> Trajectory:
-        """Compute the shot; takes from microseconds to seconds, most of it without the GIL."""
+        """Compute the shot; this takes microseconds to seconds, mostly without the GIL."""
         return simulate(
             self.table,
             self.velocity,
@@ -34,19 +49,22 @@ class Job:
 
 
 def make_job(
-    settings: Settings, shot: int | None, velocity: tuple[float, float], positions: np.ndarray
+    settings: Settings,
+    shot: int | None,
+    velocity: tuple[float, float],
+    positions: NDArray[np.float64],
 ) -> Job:
-    """Return what is to be computed for a strike.
+    """Return the job for a strike.
 
     Parameters
     ----------
     settings : Settings
     shot : int or None
-        Number of a report shot, which begins on the start layout.
+        Number of a report shot, which starts from the start layout.
     velocity : tuple of float
         Of the cue ball, m/s.
     positions : ndarray of shape (n, 2)
-        Where any other strike begins, m.
+        Where the balls rest, from which any other shot starts, m.
     """
     return Job(
         table=settings.table,

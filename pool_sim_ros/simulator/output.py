@@ -1,21 +1,21 @@
-"""What the runner needs of whoever sends what it plays."""
+"""The interface between the runner and whoever sends what it plays."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Protocol
 
-from pool_sim_ros.simulator.health import Report
-from pool_sim_ros.simulator.playback import Block, Frame
+from pool_sim_ros.simulator.frame import Block, Frame
+from pool_sim_ros.simulator.health import Diagnosis
 from pool_sim_ros.simulator.settings import Settings
 from pool_sim_ros.simulator.shot_request import Response
 
 
 class Output(Protocol):
-    """Where everything goes; called by one thread at a time."""
+    """Sends what the runner plays; called by one thread at a time."""
 
     def prepare(self, block: Block) -> None:
-        """Make ready what the next ticks send, if nothing comes between."""
+        """Prepare what the next ticks send unless something comes between."""
 
     def frame(self, frame: Frame) -> None:
         """Send a tick: the clock, the collisions up to it, then the balls."""
@@ -30,16 +30,16 @@ class Output(Protocol):
         """Send the state."""
 
     def table(self, settings: Settings) -> None:
-        """Send the table."""
+        """Send the table of these settings."""
 
-    def diagnostics(self, stamp: int, report: Report) -> None:
+    def diagnostics(self, stamp: int, diagnosis: Diagnosis) -> None:
         """Send how the simulator is doing, at a sim time in ns."""
 
     def tell(self, line: str) -> None:
-        """Tell the user what goes on."""
+        """Tell the user what is going on."""
 
     def fail(self, line: str) -> None:
-        """Tell the user why nothing can go on, and bring the process to its end."""
+        """Tell the user why nothing can go on, and end the process."""
 
     def is_open(self) -> bool:
         """Return whether anything can still be sent."""

@@ -6,14 +6,14 @@ import time
 from collections.abc import Callable
 
 MAX_LAG = 0.1
-"""Seconds of lateness that are caught up; past that the pace slips, so that a machine which was
-asleep or stopped does not answer with a flood of frames."""
+"""Seconds of lateness that are caught up. Past that, time slips: a machine that was asleep or
+stopped does not answer with a flood of frames."""
 
 
 class Pacer:
-    """Turns wall time into the time to wait for the next frame.
+    """Says how long to wait, by the wall, for the next frame.
 
-    No frame is ever left out: lateness only moves the frames.
+    No frame is ever left out: lateness only delays frames.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class Pacer:
     real_time_factor : float, optional
         Sim seconds per wall second; 0 = as fast as possible, and real time while nothing moves.
     clock : callable, optional
-        Returns seconds; best one that nobody sets.
+        Returns the wall time, s, from any origin; it should never be set back.
     """
 
     def __init__(
@@ -35,14 +35,14 @@ class Pacer:
         self._clock = clock
         self._hurrying = False
         self.slips = 0
-        """How often there was too much to catch up with, so that time slipped."""
+        """How often the lateness was too much to catch up, so that time slipped."""
         self.lateness = 0.0
-        """How late the latest frame was, s; 0 as fast as possible."""
+        """How late the latest frame was, s; 0 while as fast as possible."""
         self.real_time_factor = real_time_factor
 
     @property
     def real_time_factor(self) -> float:
-        """Sim seconds per wall second that are aimed at; setting it makes a frame due now."""
+        """Sim seconds per wall second that are aimed at; a new value makes a frame due now."""
         return self._factor
 
     @real_time_factor.setter
@@ -52,7 +52,7 @@ class Pacer:
         self.restart()
 
     def restart(self) -> None:
-        """Count from now on: the next frame is due now."""
+        """Count from now: the next frame is due at once."""
         self._anchor = self._clock()
         self._shown = 0
 
@@ -85,7 +85,7 @@ class Pacer:
 
     @property
     def ticks_behind(self) -> int:
-        """Frames that are due and not yet shown; 0 as fast as possible."""
+        """Frames that are due and not yet shown; 0 while as fast as possible."""
         if self._hurrying:
             return 0
         return max(int((self._clock() - self._due()) / self._period), 0)

@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pool_sim_ros.physics import EventKind, Trajectory
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS
-
-NANOSECOND = 1e-9
-SECOND_NS = 1_000_000_000
+from pool_sim_ros.simulator.frame import COLLISION_COLUMNS, NO_COLLISIONS, Block, Frame
+from pool_sim_ros.simulator.sim_time import stamp_to_seconds, tick_to_stamp
 
 BLOCK = 64
-"""Ticks that are looked up, and made into messages, at once: one costs about as much as all."""
+"""Ticks that are looked up, and made into messages, together: one costs about as much as all."""
 
 BLOCK_BALLS = 4096
-"""Balls in a block, all ticks together, where there are many: it bounds how long that takes."""
-
-NO_COLLISIONS = np.empty((0, len(COLLISION_COLUMNS)))
+"""Most balls in a block, counted over all its ticks: it bounds how long a large table takes."""
 
 
 class Motion(Enum):
@@ -32,111 +28,34 @@ class Motion(Enum):
     MOVING = 'moving'
 
 
-@dataclass(eq=False, slots=True)
-class Block:
-    """What a row of ticks shows, if nothing comes between.
-
-    Attributes
-    ----------
-    first_tick, end_tick : int
-        The first one, and the one after the last.
-    stamps : list of int
-        Sim time of each, ns.
-    positions, velocities : ndarray of shape (m, n, 2)
-        m, m/s. While the balls rest the positions stay one and the same array, block after block.
-    collisions : list of ndarray of shape (k, 10)
-        Of each, as `Frame.collisions`.
-    moving : bool
-        Whether a shot is played in it.
-    ends_shot : bool
-        Whether the last tick is the first in which all balls are at rest again.
-    """
-
-    first_tick: int
-    end_tick: int
-    stamps: list[int]
-    positions: np.ndarray
-    velocities: np.ndarray
-    collisions: list[np.ndarray]
-    moving: bool = False
-    ends_shot: bool = False
-
-
-@dataclass(eq=False, slots=True)
-class Frame:
-    """What one tick shows.
-
-    Attributes
-    ----------
-    block : Block
-        The ticks that were looked up with it.
-    index : int
-        Its place among these.
-    tick : int
-        Its number, from 0.
-    collisions : ndarray of shape (k, 10)
-        Contacts since the last frame, in the columns `COLLISION_COLUMNS`; each is at or before
-        this frame's stamp.
-    started, finished : bool
-        Whether this is a shot's first frame, or the first in which all balls are at rest again.
-    """
-
-    block: Block
-    index: int
-    tick: int
-    collisions: np.ndarray
-    started: bool = False
-    finished: bool = False
-
-    @property
-    def stamp(self) -> int:
-        """Its sim time, ns."""
-        return self.block.stamps[self.index]
-
-    @property
-    def positions(self) -> np.ndarray:
-        """Where the balls are, (n, 2), m."""
-        return self.block.positions[self.index]
-
-    @property
-    def velocities(self) -> np.ndarray:
-        """How fast they move, (n, 2), m/s."""
-        return self.block.velocities[self.index]
-
-    @property
-    def moving(self) -> bool:
-        """Whether any ball moves."""
-        return self.block.moving and not self.finished
-
-
 class Playback:
     """The balls over time.
 
     A shot goes through `strike`, `computed`, the frame that starts it and the frame in which all
     balls are at rest again. Until the frame that starts it, frames show the balls where the last
-    shot left them, also where the shot starts from another layout: a shot and the layout that it
-    starts from appear in one tick, so that this tick alone tells when it was played.
+    shot left them, even if the shot starts from another layout: a shot and its start layout appear
+    in one tick, so this tick alone tells when the shot was played.
 
-    Time is the tick; it never goes back, and pausing only means that nobody asks for frames.
+    Time is the tick. It never goes back; while paused, nobody asks for frames.
 
     Parameters
     ----------
     layout : ndarray of shape (n, 2)
-        Where the balls are, m.
+        Positions of the balls, m.
     rate : int
         Ticks per second of sim time.
-    paused : bool, optional
-        Whether to start paused.
     """
 
-    def __init__(self, layout: np.ndarray, rate: int, paused: bool = False) -> None:
+    def __init__(self, layout: NDArray[np.float64], rate: int) -> None:
+        self.motion = Motion.AT_REST
         self.rate = rate
-        self.paused = paused
         self.next_tick = 0
-        self._start_tick = 0
         self._block_length = min(max(BLOCK_BALLS // len(layout), 1), BLOCK)
+        self._trajectory: Trajectory | None = None
+        self._start_tick = 0
         self._collisions = NO_COLLISIONS
-        self._next_seq = 0
+        self._first_seq = self._next_seq = 0
+        self._block: Block | None = None
         self.reset(layout)
 
     @property
@@ -151,17 +70,18 @@ class Playback:
 
     @property
     def start_time(self) -> float:
-        """Sim time at which the shot now played, or the last one, started, s."""
-        return self.stamp_of(self._start_tick) * NANOSECOND
+        """Sim time at which the latest shot starts or started, s."""
+        return stamp_to_seconds(self.stamp_of(self._start_tick))
 
     @property
-    def positions(self) -> np.ndarray:
-        """Where the balls rest, or rested when the shot now played began, (n, 2), m."""
-        return self._resting[0]
+    def positions(self) -> NDArray[np.float64]:
+        """Where the balls rest, or rested before the shot that moves them, (n, 2), m."""
+        positions: NDArray[np.float64] = self._resting[0]
+        return positions
 
     def stamp_of(self, tick: int) -> int:
-        """Return the sim time of a tick, ns; never accumulated."""
-        return tick * SECOND_NS // self.rate
+        """Return the sim time of a tick, ns; it is never accumulated."""
+        return tick_to_stamp(tick, self.rate)
 
     def strike(self) -> None:
         """Note that a shot is being computed; the balls must be at rest."""
@@ -173,9 +93,12 @@ class Playback:
         """Take the shot that was being computed; the next tick starts it."""
         if self.motion is not Motion.COMPUTING:
             raise RuntimeError(f'a shot was computed while {self.motion.value}')
-        self._trajectory = trajectory
-        self._block = None
         self.motion = Motion.READY
+        self._trajectory = trajectory
+        self._start_tick = self.next_tick
+        self._first_seq = self._next_seq
+        self._collisions = self._collisions_of(trajectory)
+        self._block = None
 
     def abandon(self) -> None:
         """Drop the shot that is being computed; the balls stay where they are."""
@@ -183,22 +106,19 @@ class Playback:
             raise RuntimeError(f'abandon while {self.motion.value}')
         self.motion = Motion.AT_REST
 
-    def reset(self, layout: np.ndarray) -> None:
+    def reset(self, layout: NDArray[np.float64]) -> None:
         """Drop any shot; the next tick shows the balls at rest on this layout, (n, 2), m."""
         self.motion = Motion.AT_REST
         self._resting = np.repeat(np.array([layout], dtype=float), self._block_length, axis=0)
-        self._trajectory: Trajectory | None = None
-        self._block: Block | None = None
+        self._trajectory = None
+        self._block = None
 
     def look_ahead(self) -> Block:
-        """Return the block of the next tick; looked up here, unless it already is."""
-        block = self._block
-        if block is None or block.end_tick == self.next_tick:
-            if self.motion is Motion.READY:
-                self._begin()
-            at_rest = self._trajectory is None
-            block = self._block = self._resting_block() if at_rest else self._moving_block()
-        return block
+        """Return the block of the next tick; it is kept, and nothing else changes."""
+        if self._block is None or self._block.end_tick == self.next_tick:
+            shot = self._trajectory
+            self._block = self._resting_block() if shot is None else self._moving_block(shot)
+        return self._block
 
     def next_frame(self) -> Frame:
         """Go on by one tick and return what it shows."""
@@ -216,26 +136,34 @@ class Playback:
             self.reset(block.positions[index])
         return Frame(block, index, tick, collisions, started, finished)
 
-    def _begin(self) -> None:
-        self._start_tick = self.next_tick
-        events = self._trajectory.events
+    def _collisions_of(self, trajectory: Trajectory) -> NDArray[np.float64]:
+        """Return all collisions of the shot that starts next, (k, 10)."""
+        events = trajectory.events
         contacts = events[events['kind'] != EventKind.STOP]
-        columns = [contacts[name] for name in COLLISION_COLUMNS[1:]]
-        self._collisions = np.column_stack([np.zeros(len(contacts)), *columns])
-        self._collisions[:, 1] += self.start_time
+        # A reset drops those not shown yet, and the next shot uses their numbers: seq has no gap.
+        seq = np.arange(self._next_seq, self._next_seq + len(contacts), dtype=float)
+        rows = np.column_stack([seq, *(contacts[name] for name in COLLISION_COLUMNS[1:])])
+        rows[:, 1] += self.start_time
+        return rows
 
-    def _next_stamps(self) -> np.ndarray:
-        first = self.next_tick
-        return np.array([self.stamp_of(tick) for tick in range(first, first + self._block_length)])
+    def _next_stamps(self) -> NDArray[np.int64]:
+        ticks = range(self.next_tick, self.next_tick + self._block_length)
+        return np.array([self.stamp_of(tick) for tick in ticks], dtype=np.int64)
 
     def _resting_block(self) -> Block:
-        stamps = self._next_stamps()
-        velocities = np.zeros_like(self._resting)
-        return self._block_of(stamps, self._resting, velocities, [NO_COLLISIONS] * len(stamps))
+        stamps = self._next_stamps().tolist()
+        return Block(
+            self.next_tick,
+            self.next_tick + len(stamps),
+            stamps,
+            self._resting,
+            np.zeros_like(self._resting),
+            [NO_COLLISIONS] * len(stamps),
+        )
 
-    def _moving_block(self) -> Block:
-        shot, stamps = self._trajectory, self._next_stamps()
-        times = (stamps - self.stamp_of(self._start_tick)) * NANOSECOND
+    def _moving_block(self, shot: Trajectory) -> Block:
+        stamps = self._next_stamps()
+        times = stamp_to_seconds(stamps - self.stamp_of(self._start_tick))
         moving = int(np.searchsorted(times, shot.duration))
         ends_shot = moving < len(times)
         positions, velocities = shot.positions(times[:moving]), shot.velocities(times[:moving])
@@ -243,22 +171,26 @@ class Playback:
             stamps = stamps[: moving + 1]
             positions = np.concatenate([positions, [shot.final_positions]])
             velocities = np.concatenate([velocities, [shot.final_velocities]])
-        collisions = self._next_collisions(stamps, ends_shot)
-        return self._block_of(stamps, positions, velocities, collisions, True, ends_shot)
+        return Block(
+            self.next_tick,
+            self.next_tick + len(stamps),
+            stamps.tolist(),
+            positions,
+            velocities,
+            self._next_collisions(stamps, ends_shot),
+            moving=True,
+            ends_shot=ends_shot,
+        )
 
-    def _next_collisions(self, stamps: np.ndarray, to_the_end: bool) -> list[np.ndarray]:
-        """Take those of the next ticks from what is left."""
-        ends = np.searchsorted(self._collisions[:, 1], stamps * NANOSECOND, 'right')
+    def _next_collisions(
+        self, stamps: NDArray[np.int64], to_the_end: bool
+    ) -> list[NDArray[np.float64]]:
+        """Return the collisions of each of the next ticks, with `to_the_end` all that are left."""
+        ends = np.searchsorted(self._collisions[:, 1], stamp_to_seconds(stamps), 'right')
         if to_the_end:
             ends[-1] = len(self._collisions)
-        taken, self._collisions = self._collisions[: ends[-1]], self._collisions[ends[-1] :]
-        # Numbered here and not at the start: a reset drops the rest, and seq must have no gap.
-        taken[:, 0] = np.arange(self._next_seq, self._next_seq + len(taken))
+        shown = self._next_seq - self._first_seq
         return [
-            taken[start:end] if start < end else NO_COLLISIONS
-            for start, end in pairwise([0, *ends.tolist()])
+            self._collisions[start:end] if start < end else NO_COLLISIONS
+            for start, end in pairwise([shown, *ends.tolist()])
         ]
-
-    def _block_of(self, stamps: np.ndarray, *shown) -> Block:
-        first = self.next_tick
-        return Block(first, first + len(stamps), stamps.tolist(), *shown)

@@ -1,26 +1,23 @@
-"""A session played again from its log: the same frames, bit for bit; no ROS, no clock."""
+"""Plays a log of commands again: the same frames, bit for bit; no ROS, no clock."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any
 
-from pool_sim_ros.me212 import cue_velocity
-from pool_sim_ros.physics import check_layout
 from pool_sim_ros.simulator.command_log import LogError
-from pool_sim_ros.simulator.job import make_job
-from pool_sim_ros.simulator.playback import Frame, Motion, Playback
-from pool_sim_ros.simulator.settings import (
-    PARAMETERS,
-    Change,
-    ParameterError,
-    Settings,
-    build_settings,
-    values_of,
-)
+from pool_sim_ros.simulator.frame import Frame
+from pool_sim_ros.simulator.parameter_table import PARAMETERS, Change
+from pool_sim_ros.simulator.parameter_values import ParameterError
+from pool_sim_ros.simulator.settings import Settings, build_settings, values_of
+from pool_sim_ros.simulator.shot_request import Phase, Request
+from pool_sim_ros.simulator.simulation import Simulation
 
 
-def replay_frames(settings: Settings, commands: Sequence[dict]) -> Iterator[Frame]:
-    """Play a session again.
+def replay_frames(settings: Settings, commands: Sequence[dict[str, Any]]) -> Iterator[Frame]:
+    """Give the commands of a log to a simulation, and take its frames.
 
     Parameters
     ----------
@@ -32,72 +29,64 @@ def replay_frames(settings: Settings, commands: Sequence[dict]) -> Iterator[Fram
     Yields
     ------
     Frame
-        Every tick from 0 to the end; where the log has none, until the balls rest.
+        Every tick from 0 to the end; until all balls rest where the log has no end.
 
     Raises
     ------
     LogError
         At a command that cannot be carried out; names the tick.
     """
-    session = _Session(settings)
-    playback = session.playback
+    simulation = Simulation(_without_speed_limit(settings))
     for command in commands:
-        while playback.next_tick < command['tick']:
-            yield playback.next_frame()
+        while simulation.next_tick < command['tick']:
+            yield simulation.next_frame()[0]
         if command['command'] == 'end':
             return
         try:
-            session.do(command)
+            _carry_out(simulation, command)
         except ValueError as error:
             raise LogError(f'tick {command["tick"]}, {command["command"]}: {error}') from None
-    yield playback.next_frame()
-    while playback.motion is not Motion.AT_REST:
-        yield playback.next_frame()
+    yield simulation.next_frame()[0]
+    while not simulation.at_rest:
+        yield simulation.next_frame()[0]
 
 
-class _Session:
-    def __init__(self, settings: Settings) -> None:
-        self._settings = settings
-        self.playback = Playback(settings.table.positions, settings.publish_rate)
+def _without_speed_limit(settings: Settings) -> Settings:
+    """Return settings that reject no strike for its speed: those in a log were all accepted."""
+    return replace(settings, max_cue_speed=math.inf)
 
-    def do(self, command: dict) -> None:
-        """Carry out a command; raise ValueError where this cannot be."""
-        table = self._settings.table
-        match command['command']:
-            case 'set':
-                self._set(command['parameters'])
-            case 'reset':
-                self.playback.reset(table.positions)
-            case 'place':  # also while balls move: a reset in the same tick has made room
-                self._place(command['positions'])
-            case 'strike':
-                self._require_rest()
-                self._strike(None, command['velocity'])
-            case 'shot':
-                self._require_rest()
-                self._strike(command['shot'], cue_velocity(command['shot'], table))
 
-    def _set(self, values: dict[str, object]) -> None:
-        for name in values:
-            if PARAMETERS[name].change is Change.NEVER:
-                raise ParameterError(f'{name} is {Change.NEVER.value}')
-        self._settings = build_settings({**values_of(self._settings), **values})
+def _carry_out(simulation: Simulation, command: dict[str, Any]) -> None:
+    """Carry out one command, and compute its shot at once; raise ValueError where it cannot be."""
+    match command['command']:
+        case 'set':
+            simulation.settings = _changed(simulation.settings, command['parameters'])
+        case 'reset':
+            simulation.reset()
+        case 'place':
+            # The log has the last layout of a tick only: a reset before it let the balls be placed.
+            simulation.reset()
+            if command['positions'].shape[1] != 2:
+                raise ValueError('positions must be rows of two numbers')
+            refusal = simulation.place(command['positions'])
+            if refusal is not None:
+                raise ValueError(refusal)
+        case 'strike':
+            _play(simulation, Request(velocity=command['velocity']))
+        case 'shot':
+            _play(simulation, Request(shot=command['shot']))
 
-    def _place(self, positions) -> None:
-        table = self._settings.table
-        if positions.shape != (len(table.balls), 2):
-            raise ValueError(f'positions must be {len(table.balls)} rows of two numbers')
-        check_layout(table, positions)
-        self.playback.reset(positions)
 
-    def _strike(self, shot: int | None, velocity: tuple[float, float]) -> None:
-        job = make_job(self._settings, shot, velocity, self.playback.positions)
-        trajectory = job.run()
-        if not trajectory.complete:
-            raise ValueError('the balls move for longer than max_shot_duration')
-        self.playback.strike()
-        self.playback.computed(trajectory)
+def _changed(settings: Settings, parameters: dict[str, object]) -> Settings:
+    for name in parameters:
+        if PARAMETERS[name].change is Change.NEVER:
+            raise ParameterError(f'{name} is {Change.NEVER.value}')
+    return _without_speed_limit(build_settings({**values_of(settings), **parameters}))
 
-    def _require_rest(self) -> None:
-        if self.playback.motion is not Motion.AT_REST:
-            raise ValueError('the balls are moving')
+
+def _play(simulation: Simulation, request: Request) -> None:
+    response, job = simulation.take(request)
+    responses = [response] if job is None else simulation.computed(job, job.run())
+    for response in responses:
+        if response.phase is not Phase.ACCEPTED:
+            raise ValueError(response.reason)

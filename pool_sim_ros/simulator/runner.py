@@ -1,4 +1,4 @@
-"""The threads of the simulation: one shows the frames, one computes the shots."""
+"""Plays a simulation in real time: one thread shows the frames, another computes the shots."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import traceback
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
-from pool_sim_ros.physics import compile_kernels
+from pool_sim_ros.physics import Trajectory, compile_kernels
 from pool_sim_ros.simulator.command_log import CommandLog
 from pool_sim_ros.simulator.health import Health, energy_rise
 from pool_sim_ros.simulator.job import Job
@@ -18,6 +19,7 @@ from pool_sim_ros.simulator.output import Output
 from pool_sim_ros.simulator.pacer import Pacer
 from pool_sim_ros.simulator.settings import Settings
 from pool_sim_ros.simulator.shot_request import Phase, Response
+from pool_sim_ros.simulator.sim_time import stamp_to_seconds
 from pool_sim_ros.simulator.simulation import Simulation
 from pool_sim_ros.simulator.worker import Worker
 
@@ -25,54 +27,54 @@ STATE_PERIOD = 1.0
 """Seconds between two states while nothing changes: a heartbeat for clients."""
 
 PAUSED_CLOCK_PERIOD = 0.1
-"""Seconds between two clocks while paused: a late subscriber must not wait long."""
+"""Seconds between two clock messages while paused: a late subscriber must not wait long."""
 
 LONGEST_NAP = 0.05
-"""Seconds after which the playback thread looks up at the latest: it bounds how long resuming and
-stopping take."""
+"""Longest sleep of the playback thread, s: it bounds how long resuming and stopping take."""
 
 HEAD_START = 8e-4
-"""Seconds that are slept last and apart: a short sleep ends more exactly than a long one."""
+"""Seconds before a frame is due at which a second, short sleep starts: it ends more exactly than a
+long one."""
 
 LONGEST_BATCH = 0.002
-"""Seconds of frames in a row while the lock is held: it bounds how long a request waits."""
+"""Longest row of frames under the lock, in s of wall time: it bounds how long a request waits."""
 
 SHORTEST_NAP = 1e-4
-"""Seconds for which the lock is free between two batches, long enough to be taken by a waiter."""
+"""Seconds for which the lock is free between two batches: a waiting thread can take it."""
 
 BUSY_NAP = 1e-3
-"""The same while requests keep coming, so that they get their share of the interpreter."""
+"""The same while requests keep coming: they need their share of the interpreter."""
 
 BUSY_PERIOD = 0.05
 """Seconds after a request in which another one is expected."""
 
 STEP_PATIENCE = 5.0
-"""Seconds for which a step waits for the shot that is being computed, so that it is shown."""
+"""Seconds for which a step waits for the shot that is being computed, to show it."""
 
 HEALTH_PERIOD = 1.0
-"""Seconds between two diagnostics, as their readers expect them."""
+"""Seconds between two diagnostics; their readers expect one a second."""
 
 COMPILE_NOTICE = 1.0
-"""Seconds after which the kernels are not merely being loaded, but compiled."""
+"""Seconds after which the kernels are being compiled, not merely loaded."""
 
 
 class Runner:
-    """Plays a simulation in time.
+    """Plays a simulation in real time.
 
-    One lock guards the simulation, the pacer and the order of what is sent: who holds it may use
-    all three, and must not compute or sleep meanwhile. Every method may be called from any thread.
+    One lock guards the simulation, the pacer and the order of what is sent. A thread that holds it
+    may use all three, and must not compute or sleep. Any thread may call any method.
 
     Parameters
     ----------
     settings : Settings
     output : Output
     log : CommandLog, optional
-        Where to record; closed in the end.
+        Where to record; `stop` closes it.
     """
 
     def __init__(self, settings: Settings, output: Output, log: CommandLog | None = None) -> None:
         self.ready = threading.Event()
-        """Set once the kernels are compiled and this was told."""
+        """Set once the kernels are compiled and the output was told so."""
         self._simulation = Simulation(settings, log=log)
         self._health = Health()
         self._pacer = Pacer(settings.publish_rate, settings.real_time_factor)
@@ -90,12 +92,12 @@ class Runner:
         self._playing.start()
 
     def request(self, text: str) -> Response:
-        """Take, and answer, a request as `~/shot/request` carries it."""
+        """Take and answer a request as `~/shot/request` carries it."""
         with self._lock:
             return self._answer(*self._simulation.request(text))
 
     def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Response:
-        """Take, and answer, a twist of the cue ball, (3,) m/s and (3,) rad/s."""
+        """Take and answer a twist of the cue ball, (3,) m/s and (3,) rad/s."""
         with self._lock:
             return self._answer(*self._simulation.strike(linear, angular))
 
@@ -108,7 +110,7 @@ class Runner:
             self._computed.notify_all()
             return bool(preempted)
 
-    def place(self, positions: np.ndarray) -> str | None:
+    def place(self, positions: NDArray[np.float64]) -> str | None:
         """Put the balls at (k, 2) positions in m; return why this cannot be, or None."""
         with self._lock:
             self._last_request = time.monotonic()
@@ -120,21 +122,21 @@ class Runner:
     def set_paused(self, paused: bool) -> None:
         """Pause or resume."""
         with self._lock:
-            self._simulation.playback.paused = paused
+            self._simulation.paused = paused
             self._pacer.restart()
             self._show_state()
 
     def step(self) -> tuple[bool, str]:
-        """Advance by `step_ticks` while paused; return whether this was done, and words."""
+        """Advance by `step_ticks` while paused; return whether this was done, and a message."""
         simulation = self._simulation
         with self._lock:
-            if not simulation.playback.paused:
+            if not simulation.paused:
                 return False, 'only a paused table can be stepped; call set_paused first'
             if not self._computed.wait_for(lambda: not simulation.computing, STEP_PATIENCE):
                 return False, 'a shot is still being computed; step again once state says it is not'
             for _ in range(simulation.settings.step_ticks):
                 self._show_next_frame()
-            return True, f'at tick {simulation.playback.tick}'
+            return True, f'at tick {simulation.tick}'
 
     def apply(self, settings: Settings) -> None:
         """Take new settings; what concerns a shot counts from the next strike."""
@@ -150,7 +152,7 @@ class Runner:
         """Send nothing more; return whether the shot being computed ended within `timeout` s."""
         self._stopping.set()
         self._playing.join()
-        with self._lock:  # a result may just be being taken over
+        with self._lock:  # the other thread may be handing over a result
             self._simulation.close()
         return self._worker.stop(timeout)
 
@@ -190,6 +192,7 @@ class Runner:
 
     def _compute(self, job: Job) -> None:
         start, rise = time.monotonic(), None
+        result: Trajectory | Exception
         try:
             result = job.run()
             took = time.monotonic() - start
@@ -229,12 +232,12 @@ class Runner:
         return BUSY_NAP if busy else SHORTEST_NAP
 
     def _look_ahead(self) -> None:
-        """Make ready what comes next, where there is time for it."""
-        self._output.prepare(self._simulation.playback.look_ahead())
+        """Prepare what comes next while there is time for it."""
+        self._output.prepare(self._simulation.look_ahead())
 
     def _show_due_frames(self) -> float:
-        """Show what is due; return the seconds until the next frame is, inf while paused."""
-        if self._simulation.playback.paused:
+        """Show all frames that are due; return the seconds until the next one, inf while paused."""
+        if self._simulation.paused:
             return math.inf
         end = time.monotonic() + LONGEST_BATCH
         while (wait := self._pacer.wait(self._simulation.moving)) <= 0.0:
@@ -256,25 +259,24 @@ class Runner:
         now = time.monotonic()
         if now >= self._next_state:
             self._show_state(always=True)
-        playback = self._simulation.playback
-        if playback.paused and now >= self._next_clock:
-            self._output.clock(playback.stamp)
+        if self._simulation.paused and now >= self._next_clock:
+            self._output.clock(self._simulation.stamp)
             self._next_clock = max(self._next_clock + PAUSED_CLOCK_PERIOD, now)
         if now >= self._next_health:
             self._next_health = now + HEALTH_PERIOD
             self._show_health(now)
 
     def _show_health(self, now: float) -> None:
-        stamp, pacer = self._simulation.playback.stamp, self._pacer
-        behind = 0 if self._simulation.playback.paused else pacer.ticks_behind
-        report = self._health.report(now, stamp, pacer.real_time_factor, behind, pacer.slips)
-        self._output.diagnostics(stamp, report)
+        stamp, pacer = self._simulation.stamp, self._pacer
+        behind = 0 if self._simulation.paused else pacer.ticks_behind
+        diagnosis = self._health.diagnose(now, stamp, pacer.real_time_factor, behind, pacer.slips)
+        self._output.diagnostics(stamp, diagnosis)
 
     def _show_state(self, always: bool = False) -> None:
-        """Send the state, if more of it has changed than the time, or `always`."""
+        """Send the state if anything but the time has changed in it, or `always`."""
         simulation = self._simulation
-        state = {
-            'paused': simulation.playback.paused,
+        state: dict[str, object] = {
+            'paused': simulation.paused,
             'moving': simulation.moving,
             'computing': simulation.computing,
             'real_time_factor': self._pacer.real_time_factor,
@@ -283,9 +285,9 @@ class Runner:
             return
         self._shown_state = state
         self._next_state = time.monotonic() + STATE_PERIOD
-        playback = simulation.playback
-        self._output.state({**state, 'tick': playback.tick, 'sim_time': playback.stamp * 1e-9})
+        sim_time = stamp_to_seconds(simulation.stamp)
+        self._output.state({**state, 'tick': simulation.tick, 'sim_time': sim_time})
 
     def _fail(self, what: str) -> None:
-        if self._running:  # else it failed because ROS went down in the middle of it
+        if self._running:  # otherwise it failed because ROS was shut down meanwhile
             self._output.fail(f'{what}:\n{traceback.format_exc()}')

@@ -1,4 +1,4 @@
-"""What is said over `~/shot/request` and `~/shot/response`: parsing and formatting, pure."""
+"""The JSON of `~/shot/request` and `~/shot/response`: parsing and formatting, pure."""
 
 from __future__ import annotations
 
@@ -12,21 +12,14 @@ from enum import Enum
 from pool_sim_ros.me212 import SHOT_NUMBERS
 
 MAX_REQUEST_LENGTH = 4096
-"""Characters of a request. The longest sensible one has about 250; parsing stays cheap."""
+"""Characters of a request. A sensible one has at most about 250; parsing stays cheap."""
 
 MAX_ID_LENGTH = 128
-"""Characters of an id: room for any UUID or URN; bounds what 1000 remembered ids can occupy."""
-
-COLLISION_COLUMNS = ('seq', 't', 'kind', 'a', 'b', 'x', 'y', 'nx', 'ny', 'speed')
-"""Columns of `~/collisions`: see `interface.COLLISIONS`."""
-
-
-VELOCITY_COLUMNS = ('vx', 'vy')
-"""Columns of `~/ball_velocities`, m/s."""
+"""Characters of an id: enough for any UUID or URN; it bounds the memory of the request history."""
 
 
 class Phase(str, Enum):
-    """How far a request has come."""
+    """How far a request has got."""
 
     ACCEPTED = 'accepted'
     REJECTED = 'rejected'
@@ -35,7 +28,7 @@ class Phase(str, Enum):
 
 
 class Code(str, Enum):
-    """Why."""
+    """Why a response is as it is."""
 
     OK = 'OK'
     BAD_REQUEST = 'BAD_REQUEST'
@@ -51,20 +44,22 @@ class Code(str, Enum):
 
 @dataclass(frozen=True)
 class Request:
-    """What was asked for: a report shot or a velocity of the cue ball; or why it was unreadable.
+    """What a client asked for: a report shot, or a velocity of the cue ball.
 
     Attributes
     ----------
     id : str or None
-        The client's id; None where it gave none, or none that could be read.
+        The client's id; None where it gave none, or an unreadable one.
     shot : int or None
         Number of a report shot.
     velocity : tuple of float or None
         (x, y) of the cue ball, m/s.
-    code, reason
+    code : Code
         OK, or what is wrong with the request.
+    reason : str or None
+        The same in words.
     content : str
-        Equal for two requests exactly when they ask for the same.
+        Two requests have equal content exactly when they ask for the same.
     """
 
     id: str | None = None
@@ -77,14 +72,16 @@ class Request:
 
 @dataclass(frozen=True)
 class Response:
-    """One answer; None in a field that does not apply.
+    """One response; a field that does not apply is None.
 
     Attributes
     ----------
     id : str or None
         The request's; None where it could not be read.
-    phase, code, reason
-        How far, why, and why in words.
+    phase : Phase
+    code : Code
+    reason : str or None
+        Why, in words.
     shot : int or None
         Number of the report shot.
     velocity : tuple of float or None
@@ -187,11 +184,12 @@ def _fields_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
 
 
 def _parse_fields(fields: dict[str, object], text: str) -> Request:
-    request_id = fields.get('id')
-    if 'id' in fields and not (
-        isinstance(request_id, str) and 0 < len(request_id) <= MAX_ID_LENGTH
-    ):
-        return _bad(f'id must be a string of 1 to {MAX_ID_LENGTH} characters', text)
+    request_id: str | None = None
+    if 'id' in fields:
+        given = fields['id']
+        if not isinstance(given, str) or not 0 < len(given) <= MAX_ID_LENGTH:
+            return _bad(f'id must be a string of 1 to {MAX_ID_LENGTH} characters', text)
+        request_id = given
     unknown = sorted(set(fields) - {'id', 'shot', 'velocity'})
     if unknown:
         reason = f'unknown key {_quote(unknown[0])}; the keys are id, shot and velocity'

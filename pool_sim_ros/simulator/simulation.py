@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from pool_sim_ros.me212 import cue_velocity, inches
+from pool_sim_ros.me212 import cue_velocity
 from pool_sim_ros.physics import Trajectory, check_layout
+from pool_sim_ros.simulator import responses
 from pool_sim_ros.simulator.command_log import CommandLog
+from pool_sim_ros.simulator.frame import Block, Frame
 from pool_sim_ros.simulator.job import Job, make_job
-from pool_sim_ros.simulator.playback import Frame, Motion, Playback
-from pool_sim_ros.simulator.request_history import Ledger
+from pool_sim_ros.simulator.playback import Motion, Playback
+from pool_sim_ros.simulator.request_history import RequestHistory
 from pool_sim_ros.simulator.settings import Settings
 from pool_sim_ros.simulator.shot_request import (
     Code,
-    Phase,
     Request,
     Response,
     parse_request,
@@ -25,53 +27,102 @@ from pool_sim_ros.simulator.shot_request import (
 )
 
 
+@dataclass(eq=False, slots=True)
+class _Shot:
+    """The shot in hand: from its acceptance until all balls rest, or until it is preempted."""
+
+    request_id: str
+    response: Response
+    job: Job
+    settings: Settings
+    trajectory: Trajectory | None = None
+
+
 class Simulation:
     """One table: takes requests, answers them, and plays the shots.
 
-    Whoever owns it computes the jobs that it hands out, elsewhere, and brings back the results; it
-    never waits. At most one shot is in hand at a time.
+    It never waits: its owner computes the jobs that it hands out, and brings back the results.
+    At most one shot is in hand at a time.
 
     Parameters
     ----------
     settings : Settings
         May be replaced at any time: `settings` is a plain attribute. What concerns a shot counts
         from the next strike; the balls, the table's size and the rate must stay.
-    ledger : Ledger, optional
-        The memory of ids.
+    history : RequestHistory, optional
+        Which request got which response.
     log : CommandLog, optional
         Where to record what changes the frames.
+
+    Attributes
+    ----------
+    settings : Settings
+    paused : bool
+        Whether its owner asks for no frames; it answers requests all the same.
     """
 
     def __init__(
         self,
         settings: Settings,
-        ledger: Ledger | None = None,
+        history: RequestHistory | None = None,
         log: CommandLog | None = None,
     ) -> None:
         self.settings = settings
-        table = settings.table
-        self.playback = Playback(table.positions, settings.publish_rate, settings.start_paused)
-        self._ledger = ledger or Ledger()
+        self.paused = settings.start_paused
+        self._playback = Playback(settings.table.positions, settings.publish_rate)
+        self._history = history or RequestHistory()
         self._log = log
         self._layout_changed = False
-        self._placed: np.ndarray | None = None
-        self._settings_at_strike = settings
-        self._job: Job | None = None
-        self._response: Response | None = None
-        self._trajectory: Trajectory | None = None
+        self._placed: NDArray[np.float64] | None = None
+        self._shot: _Shot | None = None
 
     @property
     def moving(self) -> bool:
         """Whether the balls move."""
-        return self.playback.motion is Motion.MOVING
+        return self._playback.motion is Motion.MOVING
 
     @property
     def computing(self) -> bool:
         """Whether a shot is being computed."""
-        return self.playback.motion is Motion.COMPUTING
+        return self._playback.motion is Motion.COMPUTING
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether no shot is in hand."""
+        return self._shot is None
+
+    @property
+    def tick(self) -> int:
+        """The latest tick shown; 0 before the first."""
+        return self._playback.tick
+
+    @property
+    def next_tick(self) -> int:
+        """The tick that `next_frame` shows."""
+        return self._playback.next_tick
+
+    @property
+    def stamp(self) -> int:
+        """Sim time of `tick`, ns."""
+        return self._playback.stamp
 
     def request(self, text: str) -> tuple[Response, Job | None]:
-        """Take a request; see `shot_request.parse_request`.
+        """Take a request as `~/shot/request` carries it; returns as `take` does."""
+        return self.take(parse_request(text))
+
+    def strike(
+        self, linear: Sequence[float], angular: Sequence[float]
+    ) -> tuple[Response, Job | None]:
+        """Take a twist of the cue ball, (3,) m/s and (3,) rad/s; returns as `take` does."""
+        return self.take(twist_request(linear, angular))
+
+    def take(self, request: Request) -> tuple[Response, Job | None]:
+        """Take a request.
+
+        Parameters
+        ----------
+        request : Request
+            Without an id it gets one, unless it is unreadable.
 
         Returns
         -------
@@ -80,40 +131,54 @@ class Simulation:
         job : Job or None
             To be computed, and its result given to `computed`.
         """
-        return self._take(parse_request(text))
-
-    def strike(
-        self, linear: Sequence[float], angular: Sequence[float]
-    ) -> tuple[Response, Job | None]:
-        """Take a twist of the cue ball, (3,) m/s and (3,) rad/s; returns as `request` does."""
-        return self._take(twist_request(linear, angular))
+        if request.id is None:
+            if request.code is Code.BAD_REQUEST:
+                return responses.rejected(request, request.code, request.reason), None
+            request_id = self._history.make_id()
+            request = replace(request, id=request_id)
+        else:
+            request_id = request.id
+            known = self._history.find(request_id)
+            if known is not None:
+                return responses.repeated(request, *known), None
+        job = None
+        if request.code is not Code.OK:
+            response = responses.rejected(request, request.code, request.reason)
+        else:
+            response, job = self._consider(request)
+        self._history.add(request_id, request.content, response)
+        if job is not None:
+            self._playback.strike()
+            self._shot = _Shot(request_id, response, job, self.settings)
+        return response, job
 
     def computed(self, job: Job, result: Trajectory | Exception) -> list[Response]:
-        """Take the result of a job; one that a reset has overtaken changes nothing."""
-        if job is not self._job:
+        """Take the result of a job; nothing changes if the table was reset meanwhile."""
+        shot = self._shot
+        if shot is None or job is not shot.job or not self.computing:
             return []
-        self._job = None
         if isinstance(result, Exception):
-            self.playback.abandon()
-            return [self._preempt(Code.FAILED, f'the shot could not be computed: {result}')]
+            self._playback.abandon()
+            reason = f'the shot could not be computed: {result}'
+            return [self._preempt(shot, Code.FAILED, reason)]
         if not result.complete:
-            self.playback.abandon()
+            self._playback.abandon()
             limit = f'max_shot_duration, {job.until:g} s'
-            return [self._preempt(Code.TOO_LONG, f'the balls would move for longer than {limit}')]
-        self._trajectory = result
-        self.playback.computed(result)
+            reason = f'the balls would move for longer than {limit}'
+            return [self._preempt(shot, Code.TOO_LONG, reason)]
+        shot.trajectory = result
+        self._playback.computed(result)
         return []
 
     def reset(self) -> list[Response]:
         """Put the balls back on the start layout; the shot in hand, if any, is preempted."""
-        started = self.playback.start_time if self.playback.motion is Motion.MOVING else None
+        start_time = self._playback.start_time if self.moving else None
         self._lay_out(None)
-        self._job = None
-        if self._response is None:
+        if self._shot is None:
             return []
-        return [self._preempt(Code.RESET, 'the table was reset', started)]
+        return [self._preempt(self._shot, Code.RESET, 'the table was reset', start_time)]
 
-    def place(self, positions: np.ndarray) -> str | None:
+    def place(self, positions: NDArray[np.float64]) -> str | None:
         """Put all balls elsewhere.
 
         Parameters
@@ -129,8 +194,8 @@ class Simulation:
         table = self.settings.table
         if len(positions) != len(table.balls):
             return f'{len(positions)} positions; the table has {len(table.balls)} balls'
-        if self._response is not None:
-            return f'{self._doing}; wait for done or reset'
+        if not self.at_rest:
+            return f'{self._occupation}; wait for done or reset'
         try:
             check_layout(table, positions)
         except ValueError as error:
@@ -138,11 +203,9 @@ class Simulation:
         self._lay_out(np.array(positions))
         return None
 
-    def close(self) -> None:
-        """End the log."""
-        if self._log is not None:
-            self._log.close(self.playback.next_tick)
-            self._log = None
+    def look_ahead(self) -> Block:
+        """Return what the next ticks show unless something comes between; nothing changes."""
+        return self._playback.look_ahead()
 
     def next_frame(self) -> tuple[Frame, list[Response]]:
         """Go on by one tick.
@@ -153,114 +216,67 @@ class Simulation:
         responses : list of Response
             To be published after the frame.
         """
-        frame = self.playback.next_frame()
+        frame, shot = self._playback.next_frame(), self._shot
         if self._log is not None:
-            self._record(frame)
-        return frame, [self._done()] if frame.finished else []
+            self._record(self._log, frame)
+        return frame, [self._done(shot)] if shot is not None and frame.finished else []
+
+    def close(self) -> None:
+        """End the log."""
+        if self._log is not None:
+            self._log.close(self.next_tick)
+            self._log = None
 
     @property
-    def _doing(self) -> str:
+    def _occupation(self) -> str:
         return 'a shot is being computed' if self.computing else 'the balls are moving'
 
-    def _lay_out(self, positions: np.ndarray | None) -> None:
+    def _lay_out(self, positions: NDArray[np.float64] | None) -> None:
         self._layout_changed, self._placed = True, positions
-        self.playback.reset(self.settings.table.positions if positions is None else positions)
+        self._playback.reset(self.settings.table.positions if positions is None else positions)
 
-    def _record(self, frame: Frame) -> None:
-        # Not before the frame: of all resets and placings in a tick only the last one is seen.
+    def _record(self, log: CommandLog, frame: Frame) -> None:
+        # Only once the frame is there: it shows the last of all resets and placements in a tick.
         if self._layout_changed:
-            self._log.layout(frame.tick, self._placed)
+            log.layout(frame.tick, self._placed)
         self._layout_changed, self._placed = False, None
-        if frame.started:
-            response = self._response
-            self._log.strike(frame.tick, self._settings_at_strike, response.shot, response.velocity)
-
-    def _take(self, request: Request) -> tuple[Response, Job | None]:
-        if request.id is not None:
-            known = self._ledger.find(request.id)
-            if known is not None:
-                return self._repeated(request, *known), None
-        elif request.code is not Code.BAD_REQUEST:
-            request = replace(request, id=self._ledger.make_id())
-        job = None
-        if request.code is not Code.OK:
-            response = _rejected(request, request.code, request.reason)
-        else:
-            response, job = self._consider(request)
-        if response.id is not None:
-            self._ledger.enter(request, response)
-        if job is not None:
-            self.playback.strike()
-            self._job, self._response = job, response
-            self._settings_at_strike = self.settings
-        return response, job
-
-    def _repeated(self, request: Request, content: str, response: Response) -> Response:
-        if request.content == content:
-            return response
-        reason = 'this id was used for another request; choose a new one for each'
-        return _rejected(request, Code.ID_REUSED, reason)
+        if frame.started and self._shot is not None:
+            shot = self._shot
+            log.strike(frame.tick, shot.settings, shot.response.shot, shot.job.velocity)
 
     def _consider(self, request: Request) -> tuple[Response, Job | None]:
-        settings, table = self.settings, self.settings.table
-        velocity, as_printed = request.velocity, None
+        """Accept a readable request, or reject it."""
+        settings, velocity, as_printed = self.settings, request.velocity, None
         if request.shot is not None:
             try:
-                velocity = cue_velocity(request.shot, table)
+                velocity = cue_velocity(request.shot, settings.table)
             except ValueError as error:
-                return _rejected(request, Code.UNKNOWN_SHOT, str(error)), None
+                return responses.rejected(request, Code.UNKNOWN_SHOT, str(error)), None
             as_printed = not settings.deviations
+        assert velocity is not None, 'a readable request has a shot or a velocity'
         speed = math.hypot(*velocity)
         if speed > settings.max_cue_speed:
             limit = f'max_cue_speed, {settings.max_cue_speed:g} m/s'
             reason = f'the speed {speed:g} m/s is above {limit}'
-            return _rejected(request, Code.TOO_FAST, reason), None
-        if self._response is not None:
-            return _rejected(request, Code.BUSY, f'{self._doing}; wait for done or reset'), None
-        job = make_job(settings, request.shot, velocity, self.playback.positions)
-        response = Response(
-            id=request.id,
-            phase=Phase.ACCEPTED,
-            shot=request.shot,
-            velocity=velocity,
-            integrator=job.integrator,
-            as_printed=as_printed,
-        )
-        return response, job
+            return responses.rejected(request, Code.TOO_FAST, reason), None
+        if not self.at_rest:
+            reason = f'{self._occupation}; wait for done or reset'
+            return responses.rejected(request, Code.BUSY, reason), None
+        job = make_job(settings, request.shot, velocity, self._playback.positions)
+        return responses.accepted(request, job, as_printed), job
 
-    def _done(self) -> Response:
-        labels = self.settings.table.labels
-        places = self._trajectory.final_positions.tolist()
-        start = self.playback.start_time
-        response = replace(
-            self._response,
-            phase=Phase.DONE,
-            t_start=start,
-            t_end=start + self._trajectory.duration,
-            events=len(self._trajectory.events),
-            final_positions=dict(zip(labels, places, strict=True)),
-            final_positions_in={
-                label: [inches(x), inches(y)] for label, (x, y) in zip(labels, places, strict=True)
-            },
-        )
-        return self._finish(response)
+    def _done(self, shot: _Shot) -> Response:
+        trajectory = shot.trajectory
+        assert trajectory is not None, 'a shot that is played was computed'
+        labels, start_time = self.settings.table.labels, self._playback.start_time
+        return self._end(shot, responses.done(shot.response, trajectory, labels, start_time))
 
-    def _preempt(self, code: Code, reason: str, t_start: float | None = None) -> Response:
-        preempted = {'phase': Phase.PREEMPTED, 'code': code, 'reason': reason, 't_start': t_start}
-        return self._finish(replace(self._response, **preempted))
+    def _preempt(
+        self, shot: _Shot, code: Code, reason: str, start_time: float | None = None
+    ) -> Response:
+        return self._end(shot, responses.preempted(shot.response, code, reason, start_time))
 
-    def _finish(self, response: Response) -> Response:
-        self._ledger.update(response)
-        self._response = self._trajectory = None
+    def _end(self, shot: _Shot, response: Response) -> Response:
+        self._history.update(shot.request_id, response)
+        self._shot = None
         return response
-
-
-def _rejected(request: Request, code: Code, reason: str | None) -> Response:
-    return Response(
-        id=request.id,
-        phase=Phase.REJECTED,
-        code=code,
-        reason=reason,
-        shot=request.shot,
-        velocity=request.velocity,
-    )

@@ -1,4 +1,4 @@
-"""A table as JSON, as `~/table` carries it."""
+"""The JSON of a table, as `~/table` carries it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pool_sim_ros.physics import Ball, Table
 
 
 def table_to_json(table: Table) -> str:
-    """Return the fields of a table, and of its balls, by their names in `Table` and `Ball`."""
+    """Return a table as JSON: its fields and those of its balls, under their own names."""
     return json.dumps(asdict(table), allow_nan=False)
 
 

@@ -1,4 +1,4 @@
-"""One background thread that does one thing after another."""
+"""A background thread that runs one task after another."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from collections.abc import Callable
 
 
 class Worker:
-    """Runs tasks in the order in which they were given.
+    """Runs tasks in the order of their submission.
 
-    Its thread is a daemon: a compiled kernel cannot be interrupted, and must not keep a process
-    from ending.
+    Its thread is a daemon: nothing can interrupt a compiled kernel, and it must not keep the
+    process from ending.
 
     Parameters
     ----------
@@ -26,11 +26,11 @@ class Worker:
         self._thread.start()
 
     def submit(self, task: Callable[[], None]) -> None:
-        """Run `task` after those given before; it must handle its own errors."""
+        """Run `task` after all that were submitted before; it must handle its own errors."""
         self._tasks.put(task)
 
     def stop(self, timeout: float) -> bool:
-        """Begin no further task; return whether the running one ended within `timeout` s."""
+        """Start no further task; return whether the running one ended within `timeout` s."""
         self._stopping = True
         self._tasks.put(None)
         self._thread.join(timeout)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from pool_sim_ros.report.played import play_shots
-from pool_sim_ros.simulator.settings import build_settings, default_values
+from pool_sim_ros.simulator import build_settings, default_values
 
 
 @pytest.fixture(scope='session')

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
 from pool_sim_ros.ros import cdr, messages
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS, VELOCITY_COLUMNS
+from pool_sim_ros.simulator import COLLISION_COLUMNS, VELOCITY_COLUMNS
 
 NUMBERS = st.floats(width=64)
 STAMPS = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)

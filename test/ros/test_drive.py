@@ -13,9 +13,9 @@ from ros_harness import Observer, Process, node_process, start_node
 
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
+from pool_sim_ros.simulator import build_settings, values_from
 from pool_sim_ros.simulator.command_log import read_log
 from pool_sim_ros.simulator.replay import replay_frames
-from pool_sim_ros.simulator.settings import build_settings, values_from
 from pool_sim_ros.simulator.table_json import table_from_json
 
 FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}

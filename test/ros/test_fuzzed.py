@@ -26,7 +26,7 @@ from std_msgs.msg import String
 from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
 
 from pool_sim_ros.ros import interface
-from pool_sim_ros.simulator.settings import PARAMETERS
+from pool_sim_ros.simulator import PARAMETERS
 
 
 @pytest.fixture(scope='module')

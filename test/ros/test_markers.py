@@ -8,8 +8,8 @@ from visualization_msgs.msg import Marker
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface
 from pool_sim_ros.ros.markers import Markers
+from pool_sim_ros.simulator.frame import COLLISION_COLUMNS
 from pool_sim_ros.simulator.playback import Playback
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS
 
 TABLE = report_table()
 NOTHING = np.empty((0, len(COLLISION_COLUMNS)))

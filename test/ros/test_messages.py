@@ -6,8 +6,7 @@ from std_msgs.msg import Float64MultiArray
 
 from pool_sim_ros.physics import report_table
 from pool_sim_ros.ros import messages
-from pool_sim_ros.simulator.shot_request import COLLISION_COLUMNS
-from pool_sim_ros.simulator.table_json import table_from_json, table_to_json
+from pool_sim_ros.simulator import COLLISION_COLUMNS, table_from_json, table_to_json
 
 
 def through_the_wire(message):

@@ -14,7 +14,7 @@ from waiting import PATIENCE
 
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.simulator.settings import PARAMETERS, Change, ParameterError
+from pool_sim_ros.simulator import PARAMETERS, Change, ParameterError
 from pool_sim_ros.simulator.table_json import table_from_json
 
 FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}

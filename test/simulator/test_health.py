@@ -7,31 +7,31 @@ from pool_sim_ros.physics import Ball, Table, report_table, simulate
 from pool_sim_ros.simulator.health import ENERGY_SAMPLES, REASON_LENGTH, Health, energy_rise
 
 
-def report(health, now=10.0, stamp=0, factor=1.0, behind=0, slips=0):
-    return health.report(now, stamp, factor, behind, slips)
+def diagnose(health, now=10.0, stamp=0, factor=1.0, behind=0, slips=0):
+    return health.diagnose(now, stamp, factor, behind, slips)
 
 
-def test_the_speed_is_sim_time_over_wall_time_since_the_last_report():
+def test_the_speed_is_sim_time_over_wall_time_since_the_last_diagnosis():
     health = Health()
-    assert report(health, 5.0, 0).values['achieved speed (sim s / s)'] == 'unknown'
-    later = report(health, 7.0, 5_000_000_000)
+    assert diagnose(health, 5.0, 0).values['achieved speed (sim s / s)'] == 'unknown'
+    later = diagnose(health, 7.0, 5_000_000_000)
     assert float(later.values['achieved speed (sim s / s)']) == 2.5
 
 
-def test_the_worst_lateness_is_that_since_the_last_report():
+def test_the_worst_lateness_is_that_since_the_last_diagnosis():
     health = Health()
     for lateness in (0.001, 0.004, 0.002):
         health.frame(lateness)
-    assert float(report(health).values['worst frame lateness (ms)']) == 4.0
+    assert float(diagnose(health).values['worst frame lateness (ms)']) == 4.0
     health.frame(0.003)
-    assert float(report(health).values['worst frame lateness (ms)']) == 3.0
+    assert float(diagnose(health).values['worst frame lateness (ms)']) == 3.0
 
 
 def test_rejections_are_counted_and_the_last_one_shown_in_brief():
     health = Health()
     health.rejected('first')
     health.rejected('x' * 10_000)
-    values = report(health).values
+    values = diagnose(health).values
     assert values['rejected commands'] == '2'
     assert values['last rejection'] == 'x' * REASON_LENGTH
 
@@ -48,19 +48,19 @@ def test_rejections_are_counted_and_the_last_one_shown_in_brief():
 )
 def test_the_energy_check_warns_where_the_law_does_not_let_it_rise(rise, may_rise, words, warned):
     health = Health()
-    assert report(health).values['energy check'] == 'no shot yet'
+    assert diagnose(health).values['energy check'] == 'no shot yet'
     health.shot(0.25, rise, may_rise)
-    told = report(health)
-    assert words in told.values['energy check']
-    assert told.values['compute time of the last shot (s)'] == '0.25'
-    assert bool(told.warning) == warned
+    diagnosis = diagnose(health)
+    assert words in diagnosis.values['energy check']
+    assert diagnosis.values['compute time of the last shot (s)'] == '0.25'
+    assert bool(diagnosis.warning) == warned
 
 
 def test_a_slip_is_warned_of_once():
     health = Health()
-    assert report(health, slips=3).warning == ''
-    assert 'slipped' in report(health, slips=4).warning
-    assert report(health, slips=4).warning == ''
+    assert diagnose(health, slips=3).warning == ''
+    assert 'slipped' in diagnose(health, slips=4).warning
+    assert diagnose(health, slips=4).warning == ''
 
 
 def test_energy_never_rises_under_coulomb_friction():

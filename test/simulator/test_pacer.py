@@ -113,3 +113,13 @@ def test_frames_that_are_due_are_counted_and_so_are_slips():
     clock.now += 5.0
     due_frames(pacer)
     assert (pacer.ticks_behind, pacer.slips) == (0, 1)
+
+
+def test_no_frame_is_behind_as_fast_as_possible():
+    clock = Clock()
+    pacer = Pacer(60, 0.0, clock)
+    assert pacer.wait(True) <= 0.0
+    clock.now += 0.05
+    assert (pacer.ticks_behind, pacer.slips) == (0, 0)
+    pacer.shown()
+    assert pacer.lateness == 0.0

@@ -82,6 +82,22 @@ def test_a_shot_longer_than_what_is_looked_up_at_once(ticks):
             assert np.allclose(frame.positions, LAYOUT + [k / 100, 0.0], atol=1e-12)
 
 
+def test_a_block_shows_what_the_next_frames_do_unless_the_layout_changes():
+    playback = Playback(LAYOUT, 100)
+    playback.strike()
+    playback.computed(Glide(LAYOUT, (1.0, 0.0), 0.035, [(0.015, 0)]))
+    block = playback.look_ahead()
+    assert (block.first_tick, block.end_tick) == (0, 5)
+    assert block.moving and block.ends_shot
+    frames = [playback.next_frame() for _ in range(5)]
+    assert [frame.stamp for frame in frames] == block.stamps
+    for index, frame in enumerate(frames):
+        assert frame.block is block and frame.index == index
+        assert np.array_equal(frame.positions, block.positions[index])
+        assert np.array_equal(frame.collisions, block.collisions[index])
+    assert [len(rows) for rows in block.collisions] == [0, 0, 1, 0, 0]
+
+
 def test_a_shot_that_ends_on_a_tick_finishes_there():
     frames = play(Playback(LAYOUT, 100), Glide(LAYOUT, (1.0, 0.0), 0.02))
     assert len(frames) == 3
@@ -162,6 +178,11 @@ def test_frames_do_not_change_afterwards():
             assert np.array_equal(now, then)
 
 
+def state(playback):
+    positions = playback.positions.tolist()
+    return playback.motion, playback.next_tick, playback.start_time, positions
+
+
 @given(
     st.integers(1, 240),
     st.lists(
@@ -178,7 +199,10 @@ def test_frames_do_not_change_afterwards():
 def test_looking_ahead_changes_nothing(rate, commands):
     looking, plain = Playback(LAYOUT, rate), Playback(LAYOUT, rate)
     for command in commands:
-        looking.look_ahead()
+        before = state(looking)
+        block = looking.look_ahead()
+        assert state(looking) == before == state(plain)
+        assert looking.look_ahead() is block
         shown = []
         for playback in (looking, plain):
             match command, playback.motion:

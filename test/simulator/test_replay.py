@@ -1,8 +1,6 @@
 """Record and replay without ROS: the same frames, bit for bit."""
 
-import json
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,9 +9,10 @@ from waiting import wait_until
 
 from pool_sim_ros.ros.digest import digests
 from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
+from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.replay import replay_frames
 from pool_sim_ros.simulator.runner import Runner
-from pool_sim_ros.simulator.settings import build_settings, default_values, values_of
+from pool_sim_ros.simulator.settings import build_settings
 from pool_sim_ros.simulator.shot_request import Phase
 
 SETTINGS = replace(
@@ -134,81 +133,68 @@ def test_after_a_kill_the_last_shot_is_played_to_its_end(tmp_path):
     assert not played[-1].velocities.any()
 
 
-def test_a_log_is_not_overwritten(tmp_path):
-    log = tmp_path / 'session.log'
-    log.write_text('precious')
-    with pytest.raises(LogError, match='exists'):
-        CommandLog(str(log), SETTINGS)
-    assert log.read_text() == 'precious'
+def frames_of(*commands, settings=SETTINGS):
+    return list(replay_frames(settings, commands))
 
 
-@pytest.mark.parametrize('name', ['no/such/folder/x.log', 'nul\0byte'])
-def test_a_log_that_cannot_be_made(tmp_path, name):
-    with pytest.raises(LogError, match='cannot be written'):
-        CommandLog(str(tmp_path / name), SETTINGS)
+def test_without_commands_there_is_one_frame():
+    [frame] = frames_of()
+    assert np.array_equal(frame.positions, SETTINGS.table.positions) and not frame.moving
 
 
-def test_a_full_disk_ends_the_log_with_words_and_not_the_session(tmp_path, monkeypatch):
-    words = []
-    path = tmp_path / 'x.log'
-    log = CommandLog(str(path), SETTINGS, words.append)
-
-    def write(_):
-        raise OSError(28, 'No space left on device')
-
-    monkeypatch.setattr(log, '_file', SimpleNamespace(write=write))
-    for tick in range(3):
-        log.layout(tick, None)
-    log.close(3)
-    assert len(words) == 1 and 'No space left' in words[0] and 'x.log' in words[0]
+def test_the_end_is_the_tick_after_the_last_frame():
+    assert [frame.tick for frame in frames_of({'tick': 3, 'command': 'end'})] == [0, 1, 2]
 
 
-HEADER = {'format': 'pool_sim_ros command log', 'version': 1, 'parameters': values_of(SETTINGS)}
+def test_a_shot_starts_in_the_tick_of_its_command():
+    frames = frames_of({'tick': 5, 'command': 'strike', 'velocity': (1.0, 0.0)})
+    assert [frame.tick for frame in frames if frame.started] == [5]
+    assert frames[-1].finished and [frame.tick for frame in frames] == list(range(len(frames)))
+
+
+def test_balls_are_placed_in_the_middle_of_a_shot_as_after_a_reset_in_the_same_tick():
+    frames = frames_of(
+        {'tick': 0, 'command': 'shot', 'shot': 1},
+        {'tick': 20, 'command': 'place', 'positions': ELSEWHERE},
+        {'tick': 22, 'command': 'end'},
+    )
+    assert all(frame.moving for frame in frames[:20])
+    assert not any(frame.moving for frame in frames[20:])
+    assert np.array_equal(frames[20].positions, ELSEWHERE)
+
+
+def test_what_a_limit_of_the_speed_let_through_once_is_played_under_any():
+    slow = replace(SETTINGS, max_cue_speed=0.001)
+    strike = {'tick': 0, 'command': 'strike', 'velocity': (0.3, 0.1)}
+    change = {'tick': 90, 'command': 'set', 'parameters': {'max_cue_speed': 0.002}}
+    again = {'tick': 600, 'command': 'strike', 'velocity': (0.2, 0.1)}
+    frames = frames_of(strike, change, again, settings=slow)
+    assert [frame.tick for frame in frames if frame.started] == [0, 600]
 
 
 @pytest.mark.parametrize(
-    ('lines', 'words'),
+    ('commands', 'words'),
     [
-        ([], ['line 1']),
-        (['hello'], ['line 1', 'JSON']),
-        ([{'format': 'other'}], ['line 1', 'command log']),
-        ([HEADER | {'version': 2}], ['line 1', 'version']),
-        ([HEADER | {'parameters': {}}], ['line 1', 'parameters']),
-        ([HEADER, '[]'], ['line 2', 'object']),
-        ([HEADER, {'tick': 1, 'command': 'jump'}], ['line 2', 'command']),
-        ([HEADER, {'tick': -1, 'command': 'reset'}], ['line 2', 'tick']),
-        ([HEADER, {'tick': 1.5, 'command': 'reset'}], ['line 2', 'tick']),
-        ([HEADER, {'tick': 5, 'command': 'reset'}, {'tick': 4, 'command': 'reset'}], ['line 3']),
-        ([HEADER, {'tick': 1, 'command': 'end'}, {'tick': 4, 'command': 'reset'}], ['line 3']),
-        ([HEADER, {'tick': 1, 'command': 'shot'}], ['line 2', 'keys']),
-        ([HEADER, {'tick': 1, 'command': 'strike', 'velocity': [1]}], ['line 2', 'velocity']),
-        ([HEADER, {'tick': 1, 'command': 'strike', 'velocity': 'x'}], ['line 2', 'numbers']),
-        ([HEADER, '{"tick": 1, "command": "strike", "velocity": [NaN, 1]}'], ['line 2', 'finite']),
-        ([HEADER, {'tick': 1, 'command': 'set', 'parameters': {'speed': 1}}], ['line 2', 'speed']),
-        ([HEADER, {'tick': 1, 'command': 'set', 'parameters': {'step_ticks': 0}}], ['step_ticks']),
-        ([HEADER, {'tick': 7, 'command': 'shot', 'shot': 5}], ['tick 7', '5']),
-        ([HEADER, {'tick': 7, 'command': 'place', 'positions': [[1, 1]]}], ['tick 7', '11']),
-        ([HEADER, {'tick': 7, 'command': 'set', 'parameters': {'publish_rate': 9}}], ['tick 7']),
-        ([HEADER, *[{'tick': 7, 'command': 'shot', 'shot': 1}] * 2], ['tick 7', 'moving']),
+        ([{'command': 'shot', 'shot': 5}], ['5']),
+        ([{'command': 'place', 'positions': np.ones((1, 2))}], ['11']),
+        ([{'command': 'place', 'positions': np.ones((11, 3))}], ['two numbers']),
+        ([{'command': 'place', 'positions': np.ones((11, 2))}], ['overlap']),
+        ([{'command': 'set', 'parameters': {'publish_rate': 9}}], ['publish_rate', 'start-up']),
+        ([{'command': 'shot', 'shot': 1}] * 2, ['moving']),
+        ([{'command': 'strike', 'velocity': (1e7, 0.0)}], ['velocities']),
+        (
+            [
+                {'command': 'set', 'parameters': {'max_shot_duration': 0.5}},
+                {'command': 'strike', 'velocity': (4.0, 0.0)},
+            ],
+            ['max_shot_duration', '0.5'],
+        ),
     ],
 )
-def test_a_wrong_line_is_named_in_one_line(tmp_path, lines, words):
-    log = tmp_path / 'session.log'
-    texts = [line if isinstance(line, str) else json.dumps(line) for line in lines]
-    log.write_text(''.join(f'{text}\n' for text in texts))
+def test_a_command_that_cannot_be_carried_out_is_named_in_one_line(commands, words):
     with pytest.raises(LogError) as error:
-        settings, commands = read_log(log)
-        for _ in replay_frames(settings, commands):
-            pass
+        frames_of(*[{'tick': 7, **command} for command in commands])
+    assert str(error.value).startswith(f'tick 7, {commands[-1]["command"]}: ')
     assert '\n' not in str(error.value)
     for word in words:
         assert word in str(error.value)
-
-
-def test_a_file_that_is_no_text(tmp_path):
-    log = tmp_path / 'session.log'
-    log.write_bytes(bytes(range(256)))
-    with pytest.raises(LogError, match='cannot be read'):
-        read_log(log)
-    with pytest.raises(LogError, match='cannot be read'):
-        read_log(tmp_path / 'none.log')

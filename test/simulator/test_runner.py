@@ -9,10 +9,11 @@ from fakes import Recorder
 from waiting import PATIENCE, wait_until
 
 from pool_sim_ros.simulator import runner as runner_module
+from pool_sim_ros.simulator.job import Job
+from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.runner import Runner
-from pool_sim_ros.simulator.settings import build_settings, default_values
+from pool_sim_ros.simulator.settings import build_settings
 from pool_sim_ros.simulator.shot_request import Code, Phase
-from pool_sim_ros.simulator.simulation import Job
 
 SETTINGS = replace(
     build_settings(default_values()), report_integrator='event', real_time_factor=100.0
@@ -200,6 +201,30 @@ def test_a_shot_that_fails_is_preempted_and_the_next_one_played(start, monkeypat
     assert preempted.code is Code.FAILED and 'division' in preempted.reason
     runner.request('1')
     wait_for_phase(output, Phase.DONE)
+
+
+def test_kernels_that_cannot_be_compiled_end_the_process_with_the_reason(start, monkeypatch):
+    def fail(_):
+        raise RuntimeError('no compiler')
+
+    monkeypatch.setattr(runner_module, 'compile_kernels', fail)
+    runner, output = start()
+    wait_until(lambda: output.all('fail'), 'the failure')
+    assert 'no compiler' in output.all('fail')[0] and 'compiled' in output.all('fail')[0]
+    assert not runner.ready.is_set()
+
+
+def test_a_result_that_cannot_be_taken_over_ends_the_process_with_the_reason(start, slow_shots):
+    runner, output = start(max_shot_duration=0.01)
+    runner.request('1')
+
+    def fail(_):
+        raise OSError('no room')
+
+    output.responses = fail
+    slow_shots.set()
+    wait_until(lambda: output.all('fail'), 'the failure')
+    assert 'taken over' in output.all('fail')[0] and 'no room' in output.all('fail')[0]
 
 
 def test_a_failing_output_is_reported_once_and_ends_the_playback(start, monkeypatch):

@@ -8,7 +8,8 @@ from fakes import Glide
 
 from pool_sim_ros.me212.shots import cue_velocity
 from pool_sim_ros.physics import Ball, Table, report_table, simulate
-from pool_sim_ros.simulator.settings import build_settings, default_values
+from pool_sim_ros.simulator.parameter_table import default_values
+from pool_sim_ros.simulator.settings import build_settings
 from pool_sim_ros.simulator.shot_request import Code, Phase
 from pool_sim_ros.simulator.simulation import Simulation
 
@@ -257,20 +258,8 @@ def test_shot_4_needs_a_second_ball():
     assert simulation.request('1')[0].phase is Phase.ACCEPTED
 
 
-def test_as_printed_only_with_the_report_table_integrator_and_slice():
+def test_only_a_report_shot_is_as_printed_and_only_with_the_settings_of_the_report():
     report = build_settings(default_values())
-    assert not report.deviations
-    balls = report.table.balls
-    painted = (replace(balls[0], color=(0.0, 0.0, 0.0)), *balls[1:])
-    heavier = (replace(balls[0], mass=0.21), *balls[1:])
-    assert not replace(report, table=replace(report.table, balls=painted)).deviations
-    for other in (
-        replace(report, report_integrator='event'),
-        replace(report, time_slice=1e-5),
-        replace(report, table=replace(report.table, balls=heavier)),
-        replace(report, table=replace(report.table, e_cue_ball=0.95)),
-    ):
-        assert other.deviations
     assert Simulation(report).request('1')[0].as_printed is True
     assert Simulation(SETTINGS).request('1')[0].as_printed is False
     assert Simulation(report).request('{"velocity": [-4, 0]}')[0].as_printed is None
@@ -285,3 +274,59 @@ def test_any_strike_can_follow_the_printed_shots():
         _, job = simulation.request('{"velocity": [-2.0, 0.3]}')
         assert compute(simulation, job) == []
         frames_until_done(simulation)
+
+
+def test_balls_are_placed_while_they_rest(simulation):
+    positions = report_table().positions * [1.0, 0.98]
+    assert simulation.place(positions) is None
+    expected = positions.copy()
+    positions[:] = 0.0
+    frame, _ = simulation.next_frame()
+    assert np.array_equal(frame.positions, expected)
+    _, job = simulation.request('{"velocity": [1, 0]}')
+    assert np.array_equal(job.positions, expected)
+
+
+def test_what_is_no_layout_changes_nothing(simulation):
+    positions = report_table().positions
+    assert '10 positions' in simulation.place(positions[:10])
+    assert 'overlap' in simulation.place(np.ones((11, 2)))
+    frame, _ = simulation.next_frame()
+    assert np.array_equal(frame.positions, positions)
+
+
+def test_balls_are_not_placed_while_a_shot_is_in_hand(simulation):
+    positions = report_table().positions * [1.0, 0.98]
+    _, job = simulation.request('1')
+    assert 'computed' in simulation.place(positions)
+    compute(simulation, job)
+    assert 'moving' in simulation.place(positions)
+    frames_until_done(simulation)
+    assert simulation.place(positions) is None
+
+
+def test_a_result_is_taken_once(simulation):
+    _, job = simulation.request('2')
+    result = job.run()
+    assert simulation.computed(job, result) == [] == simulation.computed(job, result)
+    _, [done] = frames_until_done(simulation)
+    assert done.phase is Phase.DONE
+    assert simulation.computed(job, result) == []
+    assert simulation.at_rest and not simulation.moving
+
+
+def test_ticks_and_stamps_go_on_and_looking_ahead_moves_nothing(simulation):
+    assert (simulation.tick, simulation.next_tick, simulation.stamp) == (0, 0, 0)
+    _, job = simulation.request('2')
+    assert simulation.computing and not simulation.at_rest
+    compute(simulation, job)
+    block = simulation.look_ahead()
+    assert block.moving and not simulation.moving
+    frame, _ = simulation.next_frame()
+    assert frame.started and frame.block is block and simulation.moving
+    simulation.next_frame()
+    assert (simulation.tick, simulation.next_tick, simulation.stamp) == (1, 2, 16_666_666)
+
+
+def test_an_unreadable_request_has_no_id_to_be_remembered_by(simulation):
+    assert [simulation.request('nonsense')[0].id for _ in range(2)] == [None, None]

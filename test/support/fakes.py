@@ -63,8 +63,8 @@ class Recorder:
     def table(self, settings):
         self._keep('table', settings.table)
 
-    def diagnostics(self, stamp, report):
-        self._keep('diagnostics', (stamp, report))
+    def diagnostics(self, stamp, diagnosis):
+        self._keep('diagnostics', (stamp, diagnosis))
 
     def tell(self, line):
         self._keep('tell', line)

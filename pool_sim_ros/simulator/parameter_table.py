@@ -1,0 +1,160 @@
+"""The node's parameters: their names, defaults, ranges and meanings, and when a change counts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+
+from pool_sim_ros.physics import BALL_FRICTION_LAWS, INTEGRATORS, REPORT_TIME_SLICE, report_table
+
+ParameterValue = bool | int | float | str | list[float] | list[str]
+"""A value of a parameter, in the type of its default."""
+
+BALL_LISTS = {'labels': 1, 'masses': 1, 'radii': 1, 'positions': 2, 'colors': 3}
+"""The parameters ``balls.*``, and how many values each has for a ball."""
+
+
+class Change(Enum):
+    """When a new value counts."""
+
+    NEVER = 'fixed at start-up'
+    NEXT_STRIKE = 'counts from the next strike'
+    NOW = 'counts at once'
+
+
+@dataclass(frozen=True)
+class ParameterSpec:
+    """One parameter.
+
+    Attributes
+    ----------
+    name : str
+    default : ParameterValue
+        Its type is the parameter's.
+    doc : str
+        What the parameter means, with its unit.
+    change : Change
+    least, most : float
+        Range of a number, both ends included.
+    choices : tuple of str
+        What a string may be; none = anything.
+    may_be_empty : bool
+        Whether a string may be empty.
+    """
+
+    name: str
+    default: ParameterValue
+    doc: str
+    change: Change = Change.NEVER
+    least: float = -math.inf
+    most: float = math.inf
+    choices: tuple[str, ...] = ()
+    may_be_empty: bool = False
+
+    @property
+    def holds_strings(self) -> bool:
+        """Whether it is a list of strings."""
+        return isinstance(self.default, list) and isinstance(self.default[0], str)
+
+
+def _parameters() -> tuple[ParameterSpec, ...]:
+    table, strike, now = report_table(), Change.NEXT_STRIKE, Change.NOW
+    balls = table.balls
+    friction = (
+        ('mu_ball_ball', 'friction between two balls', 0.0),
+        ('mu_ball_surface', 'friction between a ball and the cloth', 1e-4),
+        ('mu_ball_cushion', 'friction between a ball and a cushion', 0.0),
+    )
+    restitution = (
+        ('e_cue_ball', 'restitution between the cue ball and another'),
+        ('e_ball_ball', 'restitution between two other balls'),
+        ('e_ball_cushion', 'restitution between a ball and a cushion'),
+    )
+    per_ball = 'one given means all given'
+    spec = ParameterSpec
+    return (
+        spec('table.length', table.length, 'x size between the cushions, m', least=0.01, most=1e3),
+        spec('table.width', table.width, 'y size between the cushions, m', least=0.01, most=1e3),
+        spec('table.gravity', table.gravity, 'm/s^2', least=0.01, most=1e3),
+        *(
+            spec(f'table.{name}', getattr(table, name), f'coefficient of {doc}', strike, least, 10)
+            for name, doc, least in friction
+        ),
+        *(
+            spec(f'table.{name}', getattr(table, name), f'coefficient of {doc}', strike, 0.0, 1.0)
+            for name, doc in restitution
+        ),
+        spec(
+            'table.ball_friction',
+            table.ball_friction,
+            'law of friction between two balls',
+            strike,
+            choices=BALL_FRICTION_LAWS,
+        ),
+        spec('balls.labels', list(table.labels), f'one for each ball, cue ball first; {per_ball}'),
+        spec('balls.masses', [ball.mass for ball in balls], f'kg; {per_ball}'),
+        spec('balls.radii', [ball.radius for ball in balls], f'm; {per_ball}'),
+        spec(
+            'balls.positions',
+            [v for ball in balls for v in ball.position],
+            f'start layout, x0, y0, x1, ..., m; {per_ball}',
+        ),
+        spec(
+            'balls.colors',
+            [v for ball in balls for v in ball.color],
+            f'r0, g0, b0, r1, ..., each 0 to 1; {per_ball}',
+        ),
+        spec(
+            'integrator',
+            'event',
+            'plays every strike but the report shots',
+            strike,
+            choices=INTEGRATORS,
+        ),
+        spec(
+            'report_integrator',
+            'time_slice',
+            'plays the report shots; time_slice ends where the report printed',
+            strike,
+            choices=INTEGRATORS,
+        ),
+        spec(
+            'time_slice',
+            REPORT_TIME_SLICE,
+            'slice of the integrator time_slice, s',
+            strike,
+            1e-7,
+            1e-2,
+        ),
+        spec('max_cue_speed', 15.0, 'a faster strike is rejected, m/s', strike, 1e-3, 1e3),
+        spec('max_shot_duration', 120.0, 'a longer shot is preempted, s', strike, 1e-3, 1e5),
+        spec(
+            'real_time_factor',
+            1.0,
+            'sim seconds per second; 0 = as fast as possible, and real time while nothing moves',
+            now,
+            0.0,
+            1e4,
+        ),
+        spec('step_ticks', 1, 'ticks that ~/step advances', now, 1, 1000),
+        spec('publish_rate', 60, 'frames per second of sim time', least=1, most=1000),
+        spec('frame_id', 'table', 'frame of all that is published'),
+        spec('publish_clock', False, 'whether to publish /clock'),
+        spec('start_paused', False, 'whether to start paused'),
+        spec(
+            'record',
+            '',
+            'new file to write a log of all commands to, for replay; empty = none',
+            may_be_empty=True,
+        ),
+    )
+
+
+PARAMETERS = {spec.name: spec for spec in _parameters()}
+"""Every parameter of the node but those of ROS itself, by name."""
+
+
+def default_values() -> dict[str, ParameterValue]:
+    """Return the values without a parameter file: the report's table."""
+    return {name: spec.default for name, spec in PARAMETERS.items()}

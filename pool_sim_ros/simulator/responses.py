@@ -1,0 +1,106 @@
+"""The responses that a request gets: rejected at once, or accepted and then done or preempted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pool_sim_ros.me212 import inches
+from pool_sim_ros.physics import Trajectory
+from pool_sim_ros.simulator.job import Job
+from pool_sim_ros.simulator.shot_request import Code, Phase, Request, Response
+
+
+def rejected(request: Request, code: Code, reason: str | None) -> Response:
+    """Return the response to a request that is not carried out."""
+    return Response(
+        id=request.id,
+        phase=Phase.REJECTED,
+        code=code,
+        reason=reason,
+        shot=request.shot,
+        velocity=request.velocity,
+    )
+
+
+def repeated(request: Request, content: str, response: Response) -> Response:
+    """Return the response to a request whose id is known.
+
+    Parameters
+    ----------
+    request : Request
+    content : str
+        What was asked for under this id before.
+    response : Response
+        The latest one under this id; it is given again if the request asks for the same.
+    """
+    if request.content == content:
+        return response
+    reason = 'this id was used for another request; choose a new one for each'
+    return rejected(request, Code.ID_REUSED, reason)
+
+
+def accepted(request: Request, job: Job, as_printed: bool | None) -> Response:
+    """Return the response to a request whose shot is going to be computed.
+
+    Parameters
+    ----------
+    request : Request
+    job : Job
+    as_printed : bool or None
+        See `Response`.
+    """
+    return Response(
+        id=request.id,
+        phase=Phase.ACCEPTED,
+        shot=request.shot,
+        velocity=job.velocity,
+        integrator=job.integrator,
+        as_printed=as_printed,
+    )
+
+
+def done(
+    response: Response, trajectory: Trajectory, labels: Sequence[str], start_time: float
+) -> Response:
+    """Return the response to a shot that was played to its end.
+
+    Parameters
+    ----------
+    response : Response
+        The one that accepted it.
+    trajectory : Trajectory
+    labels : sequence of n str
+        Of the balls, in order.
+    start_time : float
+        Sim time at which the balls started, s.
+    """
+    positions = trajectory.final_positions.tolist()
+    return replace(
+        response,
+        phase=Phase.DONE,
+        t_start=start_time,
+        t_end=start_time + trajectory.duration,
+        events=len(trajectory.events),
+        final_positions=dict(zip(labels, positions, strict=True)),
+        final_positions_in={
+            label: [inches(x), inches(y)] for label, (x, y) in zip(labels, positions, strict=True)
+        },
+    )
+
+
+def preempted(
+    response: Response, code: Code, reason: str, start_time: float | None = None
+) -> Response:
+    """Return the response to a shot that is not played to its end.
+
+    Parameters
+    ----------
+    response : Response
+        The one that accepted it.
+    code : Code
+    reason : str
+    start_time : float or None, optional
+        Sim time at which the balls started, s; None where they never did.
+    """
+    return replace(response, phase=Phase.PREEMPTED, code=code, reason=reason, t_start=start_time)
