@@ -7,8 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.log import EVENT
-
 PLAYED, BAD_LAYOUT, TOO_MANY_EVENTS, RUNS_AWAY = 0, 1, 2, 3
 """Values of `Outcomes.failed`."""
 
@@ -113,23 +111,11 @@ def new_outcomes(shots: int, balls: int, out: Outcomes | None) -> Outcomes:
     return Outcomes(pocketed=pocketed, events=None, offsets=None, **arrays)
 
 
-def join_events(outcomes: Outcomes, parts: dict[int, NDArray[np.void]]) -> Outcomes:
-    """Return outcomes with the events of all shots, given those of each part by its first shot."""
+def with_events(outcomes: Outcomes, events: NDArray[np.void]) -> Outcomes:
+    """Return outcomes with the events of all shots."""
     offsets = np.zeros(len(outcomes.durations) + 1, np.int64)
     np.cumsum(np.maximum(outcomes.event_counts, 0), out=offsets[1:])
-    pieces = [parts[first] for first in sorted(parts)]
-    events = pieces[0] if len(pieces) == 1 else np.empty(offsets[-1], EVENT)
-    if len(pieces) != 1:
-        # As bytes: numpy copies records field by field, which takes longer.
-        np.concatenate(
-            [as_bytes(piece) for piece in pieces] or [as_bytes(events)], out=as_bytes(events)
-        )
     return outcomes._replace(events=events, offsets=offsets)
-
-
-def as_bytes(records: NDArray[np.void]) -> NDArray[np.uint8]:
-    """Return a view of records as bytes."""
-    return records.view(np.uint8)
 
 
 def _checked(

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from pool_sim_ros.physics import time_slice as time_slicing
 from pool_sim_ros.physics.cores import share_out
 from pool_sim_ros.physics.event_driven import copied, play_parts, work_area
+from pool_sim_ros.physics.event_store import EventStore
 from pool_sim_ros.physics.outcomes import (
     BAD_LAYOUT,
     BAD_VELOCITY,
@@ -18,8 +19,8 @@ from pool_sim_ros.physics.outcomes import (
     Ends,
     Outcomes,
     ShotTooLong,
-    join_events,
     new_outcomes,
+    with_events,
 )
 from pool_sim_ros.physics.progress import Counter, Progress
 from pool_sim_ros.physics.table import Table
@@ -174,13 +175,13 @@ def simulate_many(
         outcomes.first_hit,
         outcomes.failed,
     )
-    found: dict[int, NDArray[np.void]] | None = {} if events else None
+    store = EventStore(shots) if events else None
     counter = Counter(progress, shots)
 
     def play(parts: Any, shared: bool) -> None:
         if integrator == 'event':
             play_parts(
-                table, at_rest, (moving, layouts), limits, ends, parts, shared, found, counter.add
+                table, at_rest, (moving, layouts), limits, ends, parts, shared, store, counter.add
             )
         else:
             time_slicing.play_parts(
@@ -191,7 +192,7 @@ def simulate_many(
                 limits,
                 ends,
                 parts,
-                found,
+                store,
                 counter.add,
             )
 
@@ -203,7 +204,7 @@ def simulate_many(
         shot = int(np.flatnonzero(outcomes.failed)[0])
         layout = layouts[shot]
         _raise(table, outcomes.failed[shot], f'shot {shot}', moving[shot], layout, limits[1])
-    return outcomes if found is None else join_events(outcomes, found)
+    return outcomes if store is None else with_events(outcomes, store.joined())
 
 
 def compile_kernels(table: Table) -> None:

@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.contacts import coulomb_impulse, report_friction, restitution, sign
+from pool_sim_ros.physics.event_store import EventStore
 from pool_sim_ros.physics.jit import kernel
 from pool_sim_ros.physics.log import (
     BALL_BALL,
     CUSHION,
-    EVENT,
     N_EVENTS,
     STOP,
     Log,
@@ -89,26 +89,24 @@ def play_parts(
     limits: tuple[float, int],
     ends: Ends,
     parts: Iterator[slice],
-    events: dict[int, NDArray[np.void]] | None,
+    store: EventStore | None,
     tell: Callable[[int], None],
 ) -> None:
     """Play the shots in `parts` and fill in their ends; see `event_driven.play_parts`."""
+    start = np.column_stack([at_rest['x'], at_rest['y']])
     for part in parts:
-        pieces = [np.empty(0, EVENT)]
-        start = np.column_stack([at_rest['x'], at_rest['y']])
-        for i in range(*part.indices(len(ends.durations))):
-            log = new_log(0, 0) if events is None else new_log(FIRST_ROOM, FIRST_ROOM)
+        for i in range(part.start, part.stop):
+            log = new_log(0, 0) if store is None else new_log(FIRST_ROOM, FIRST_ROOM)
             shot = _play(table, shots[1][i], start, shots[0][i], step, limits, log)
+            played = shot.failed == PLAYED
             ends.finals[i] = shot.final_positions
             ends.durations[i] = shot.duration
-            ends.event_counts[i] = shot.n_events if shot.failed == PLAYED else -1
-            ends.first_hit[i] = shot.first_hit if shot.failed == PLAYED else -1
+            ends.event_counts[i] = shot.n_events if played else -1
+            ends.first_hit[i] = shot.first_hit if played else -1
             ends.failed[i] = shot.failed
-            if shot.failed == PLAYED:
-                pieces.append(shot.events)
+            if store is not None:
+                store.put(i, i + 1, shot.events, len(shot.events) if played else 0)
             tell(1)
-        if events is not None:
-            events[part.start] = np.concatenate(pieces)
 
 
 def _play(table, layout, at_rest, velocities, step, limits, log):

@@ -21,6 +21,7 @@ from pool_sim_ros.physics.event_driven.state import (
     reset,
     start_of,
 )
+from pool_sim_ros.physics.event_store import EventStore
 from pool_sim_ros.physics.jit import inlined, kernel
 from pool_sim_ros.physics.log import EVENT, FIRST_HIT, N_EVENTS, N_SEGMENTS, new_log
 from pool_sim_ros.physics.outcomes import BAD_LAYOUT, BAD_VELOCITY, PLAYED, RUNS_AWAY, Ends, Shot
@@ -34,7 +35,9 @@ KEPT_BALLS = 1000
 """Balls up to which the working area of `play_one` is kept for the next shot: about 0.5 MB."""
 
 EVENTS_A_SHOT = 32
-"""Events a shot for which `play_many` reserves room; what is not used costs no memory."""
+"""Events a shot for which there is room at first; what is not used costs no memory."""
+
+NO_EVENTS = np.empty(0, EVENT)
 
 
 @inlined
@@ -55,7 +58,7 @@ def play(
     """
     until, max_events = limits
     reset(state, start)
-    if len(layout) > 0 and not place(state, layout):
+    if len(layout) > 0 and not place(state, start, layout):
         return BAD_LAYOUT, np.nan, False
     most = strike(state, velocities)
     failed = run(state, until, most, max_events)
@@ -93,18 +96,19 @@ def play_some(
     state: State,
     start: Start,
     shots: tuple[NDArray[np.float64], NDArray[np.float64]],
-    first: int,
+    begun: tuple[int, int],
     limits: tuple[float, int],
     ends: tuple[Ends, NDArray[np.float64], NDArray[np.void]],
 ) -> tuple[int, int]:
-    """Play shots from number `first` on, until one has more events than find room.
+    """Play shots until one has more events than find room.
 
     Parameters
     ----------
     state, start
     shots : tuple of ndarray
         Velocities, (m, n or 1, 2), and layouts, (m, n, 2); with (m, 0, 2) all begin at the start.
-    first : int
+    begun : tuple of int
+        How many were played before, and how many events are in the room already.
     limits : tuple
         As in `play`.
     ends : tuple
@@ -113,14 +117,14 @@ def play_some(
     Returns
     -------
     done, filled : int
-        The first shot that was not played, and how many events were written.
+        The same afterwards.
     """
     velocities, layouts = shots
     until, max_events = limits
     results, final_velocities, events = ends
     log = state.log
     wanted = len(log.events) > 0
-    filled = 0
+    first, filled = begun
     for shot in range(first, len(velocities)):
         failed, duration, _ = play(
             state,
@@ -240,7 +244,7 @@ def play_parts(
     ends: Ends,
     parts: Iterator[slice],
     shared: bool,
-    events: dict[int, NDArray[np.void]] | None,
+    store: EventStore | None,
     tell: Callable[[int], None],
 ) -> None:
     """Play those of many shots that are in `parts`, and fill in their ends.
@@ -258,13 +262,13 @@ def play_parts(
         Of all shots.
     parts : iterator of slice
         May be `shared` with other threads, each of which takes parts too.
-    events : dict or None
-        Where to put the events of each part, under its first shot.
+    store : EventStore or None
+        Where to put the events of each part, where they are wanted.
     tell : callable
         Called with the number of shots of each part that was played.
     """
     n = len(table.balls)
-    log = new_log(FIRST_ROOM + n if events is not None else 0, 0)
+    log = new_log(0 if store is None else FIRST_ROOM + n, 0)
     state = new_state(table.for_kernels, at_rest, log)
     start = start_of(state)
     if shared:
@@ -273,18 +277,23 @@ def play_parts(
     for part in parts:
         velocities, layouts = (array[part] for array in shots)
         own = ends.part(part)
-        done, pieces = 0, []
-        while done < len(velocities):
-            room = EVENTS_A_SHOT * (len(velocities) - done) if events is not None else 0
-            piece = np.empty(max(room, len(state.log.events)), EVENT)
-            before = done
+        count, done, filled = len(velocities), 0, 0
+        room = NO_EVENTS if store is None else store.room(EVENTS_A_SHOT * count)
+        while done < count:
             done, filled = play_some(
-                state, start, (velocities, layouts), done, limits, (own, final_velocities, piece)
+                state,
+                start,
+                (velocities, layouts),
+                (done, filled),
+                limits,
+                (own, final_velocities, room),
             )
-            pieces.append(piece[:filled])
-            if done == before:  # the next shot has more events than the log has room for
-                room = 2 * int(state.log.counts[N_EVENTS])
-                state = state._replace(log=new_log(room, 0))
-        if events is not None:
-            events[part.start] = pieces[0] if len(pieces) == 1 else np.concatenate(pieces)
-        tell(len(velocities))
+            if done < count:
+                needed = int(state.log.counts[N_EVENTS])
+                if needed > len(state.log.events):
+                    state = state._replace(log=new_log(2 * needed, 0))
+                else:
+                    room = np.concatenate([room[:filled], np.empty(len(room) + needed, EVENT)])
+        if store is not None:
+            store.put(part.start, part.stop, room, filled)
+        tell(count)

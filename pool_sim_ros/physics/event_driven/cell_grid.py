@@ -32,23 +32,24 @@ class CellGrid(NamedTuple):
     following: NDArray[np.int32]  # by ball: the next one in its cell; nobody follows nobody
     near: NDArray[np.int64]  # (n + 1,): those that are near; all where there are few
     few: FewBalls  # kept where the table has few balls; its `moving` is room where it has many
-    width: float  # m
+    width: float  # of a cell, m
     height: float  # m
+    widest: float  # diameter of the widest ball, m
 
 
 def new_grid(length: float, width: float, balls: NDArray[np.void]) -> CellGrid:
     """Return an empty grid for a table of `length` x `width` m."""
     columns = rows = 1
     n = len(balls)
+    widest = 2.0 * float(balls['radius'].max())
     if n > FEW:
-        widest = 2.0 * balls['radius'].max() * (1.0 + CELL_MARGIN)
-        side = max(widest, np.sqrt(length * width / (n * CELLS_PER_BALL)))
+        side = max(widest * (1.0 + CELL_MARGIN), np.sqrt(length * width / (n * CELLS_PER_BALL)))
         columns, rows = max(int(length / side), 1), max(int(width / side), 1)
     first = np.full((rows, columns), n, np.int32)
     following = np.full(n + 1, n, np.int32)
     near = np.arange(n + 1)
     few = new_few_balls(balls, wanted=first.size == 1)
-    return CellGrid(first, following, near, few, length / columns, width / rows)
+    return CellGrid(first, following, near, few, length / columns, width / rows, widest)
 
 
 @kernel

@@ -7,11 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pool_sim_ros.physics.boundary import cushion_gap, n_cushions
 from pool_sim_ros.physics.event_driven.cell_grid import CellGrid, fill, has_few, new_grid
 from pool_sim_ros.physics.event_driven.contact_group import ContactGroup, new_group
 from pool_sim_ros.physics.event_driven.event_queue import first, new_queue
 from pool_sim_ros.physics.event_driven.few_balls import note_motion
-from pool_sim_ros.physics.jit import inlined
+from pool_sim_ros.physics.jit import inlined, kernel
 from pool_sim_ros.physics.log import Log, clear
 
 
@@ -33,6 +34,7 @@ class Start(NamedTuple):
     first: NDArray[np.int32]  # of the grid
     following: NDArray[np.int32]
     queue: NDArray[np.void]
+    clearance_squared: float  # m^2; balls that are all moved by less may lie there
 
 
 def new_state(table: Any, at_rest: NDArray[np.void], log: Log) -> State:
@@ -46,8 +48,26 @@ def new_state(table: Any, at_rest: NDArray[np.void], log: Log) -> State:
 
 def start_of(state: State) -> Start:
     """Return what `reset` needs to bring a state back to where it is now, at rest."""
-    grid = state.grid
-    return Start(copied(state.balls), grid.first.copy(), grid.following.copy(), state.queue.copy())
+    balls, grid = copied(state.balls), state.grid
+    room = max(clearance(state), 0.0) if has_few(grid) else 0.0
+    return Start(balls, grid.first.copy(), grid.following.copy(), state.queue.copy(), room * room)
+
+
+@kernel
+def clearance(state: State) -> float:
+    """Return by how much all balls may be moved from where they rest, each anywhere, m."""
+    balls, boundary = state.balls, state.table.boundary
+    least = np.inf
+    for i in range(len(balls)):
+        one = balls[i]
+        for cushion in range(n_cushions(boundary)):
+            least = min(least, cushion_gap(boundary, cushion, one.x, one.y, one.radius))
+        for k in range(i):
+            other = balls[k]
+            dx, dy = other.x - one.x, other.y - one.y
+            gap = np.sqrt(dx * dx + dy * dy) - one.radius - other.radius
+            least = min(least, 0.5 * gap)
+    return least
 
 
 def copied(records: NDArray[np.void]) -> NDArray[np.void]:
