@@ -109,11 +109,11 @@ def is_outside(boundary: Any, x: float, y: float, radius: float, tolerance: floa
     raise NotImplementedError
 
 
-def _rectangle_n(boundary):
+def _rectangle_n(boundary: Rectangle) -> int:
     return 4
 
 
-def _rectangle_gap(boundary, cushion, x, y, radius):
+def _rectangle_gap(boundary: Rectangle, cushion: int, x: float, y: float, radius: float) -> float:
     if cushion == 0:
         return x - radius
     if cushion == 1:
@@ -123,7 +123,7 @@ def _rectangle_gap(boundary, cushion, x, y, radius):
     return boundary.width - radius - y
 
 
-def _rectangle_normal(boundary, cushion, x, y):
+def _rectangle_normal(boundary: Rectangle, cushion: int, x: float, y: float) -> tuple[float, float]:
     if cushion == 0:
         return -1.0, 0.0
     if cushion == 1:
@@ -133,7 +133,9 @@ def _rectangle_normal(boundary, cushion, x, y):
     return 0.0, 1.0
 
 
-def _rectangle_distance(boundary, x, y, ux, uy, radius):
+def _rectangle_distance(
+    boundary: Rectangle, x: float, y: float, ux: float, uy: float, radius: float
+) -> tuple[float, int]:
     distance, partner = float('inf'), PHASE_END
     if ux > 0.0:
         distance, partner = (boundary.length - radius - x) / ux, FIRST_CUSHION - 1
@@ -150,12 +152,14 @@ def _rectangle_distance(boundary, x, y, ux, uy, radius):
     return max(distance, 0.0), partner
 
 
-def _rectangle_axes(boundary, cushion, normal, v):
+def _rectangle_axes(
+    boundary: Rectangle, cushion: int, normal: tuple[float, float], v: tuple[float, float]
+) -> tuple[float, float]:
     # Both ways: the parts change places, or not.
     return (v[0], v[1]) if cushion < 2 else (v[1], v[0])
 
 
-def _rectangle_touches(boundary, x, y, reach, but):
+def _rectangle_touches(boundary: Rectangle, x: float, y: float, reach: float, but: int) -> bool:
     return (
         (x <= reach and but != 0)
         or (boundary.length - x <= reach and but != 1)
@@ -164,7 +168,9 @@ def _rectangle_touches(boundary, x, y, reach, but):
     )
 
 
-def _rectangle_outside(boundary, x, y, radius, tolerance):
+def _rectangle_outside(
+    boundary: Rectangle, x: float, y: float, radius: float, tolerance: float
+) -> bool:
     least = radius - tolerance
     inside_x = (least <= x) & (x <= boundary.length - radius + tolerance)
     inside_y = (least <= y) & (y <= boundary.width - radius + tolerance)

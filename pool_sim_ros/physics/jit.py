@@ -28,6 +28,9 @@ inlined = njit(cache=True, forceinline=True, **OPTIONS)
 NONE = np.int64(0)
 """How many there are to begin with. Not a literal: for each of those a kernel is compiled anew."""
 
+Record = Any
+"""One row of a structured array. In a kernel its fields are attributes."""
+
 Function = TypeVar('Function', bound=Callable[..., Any])
 
 
@@ -52,7 +55,7 @@ def chosen_by(parameter: str) -> Callable[[Function], Function]:
             return implementations[type(args[index])](*args)
 
         def choose(*types: Any) -> Callable[..., Any] | None:
-            return implementations.get(getattr(types[index], 'instance_class', None))
+            return implementations.get(getattr(types[index], 'instance_class', object))
 
         overload(call, jit_options={**OPTIONS, 'forceinline': True}, strict=False)(choose)
         call.implementations = implementations  # type: ignore[attr-defined]

@@ -27,7 +27,7 @@ def report_table() -> Table:
             mass=grams / 1000,
             radius=2.25 * INCH,
             position=(x * INCH, y * INCH),
-            color=tuple(level / 255 for level in rgb),
+            color=(rgb[0] / 255, rgb[1] / 255, rgb[2] / 255),
             is_cue=label == 'C',
         )
         for label, grams, (x, y), rgb in rows

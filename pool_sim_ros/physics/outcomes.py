@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +43,13 @@ class Ends(NamedTuple):
 
     def part(self, shots: slice) -> Ends:
         """Return that of some shots."""
-        return Ends(*(array[shots] for array in self))
+        return Ends(
+            self.finals[shots],
+            self.durations[shots],
+            self.event_counts[shots],
+            self.first_hit[shots],
+            self.failed[shots],
+        )
 
 
 class Outcomes(NamedTuple):
@@ -88,27 +94,26 @@ def new_outcomes(shots: int, balls: int, out: Outcomes | None) -> Outcomes:
     ValueError
         Where one of these has another shape or type.
     """
-    wanted: dict[str, tuple[tuple[int, ...], type]] = {
-        'finals': ((shots, balls, 2), np.float64),
-        'durations': ((shots,), np.float64),
-        'event_counts': ((shots,), np.int64),
-        'first_hit': ((shots,), np.int64),
-        'failed': ((shots,), np.int8),
-    }
-    arrays = {}
-    for name, (shape, dtype) in wanted.items():
+
+    def room(name: str, shape: tuple[int, ...], dtype: type) -> NDArray[Any]:
         given = getattr(out, name, None)
-        arrays[name] = (
-            np.empty(shape, dtype)
-            if given is None
-            else _checked(f'out.{name}', given, shape, dtype)
-        )
-    # Nothing falls into a pocket yet: one number stands for all.
-    pocketed = np.broadcast_to(np.int64(-1), (shots, balls))
+        return np.empty(shape, dtype) if given is None else _checked(name, given, shape, dtype)
+
+    # No table has pockets yet: one number stands for all.
+    pocketed: NDArray[np.int64] = np.broadcast_to(np.int64(-1), (shots, balls))
     if out is not None and out.pocketed is not None and out.pocketed.flags.writeable:
-        pocketed = _checked('out.pocketed', out.pocketed, (shots, balls), np.int64)
+        pocketed = _checked('pocketed', out.pocketed, (shots, balls), np.int64)
         pocketed[...] = -1
-    return Outcomes(pocketed=pocketed, events=None, offsets=None, **arrays)
+    return Outcomes(
+        finals=room('finals', (shots, balls, 2), np.float64),
+        durations=room('durations', (shots,), np.float64),
+        event_counts=room('event_counts', (shots,), np.int64),
+        pocketed=pocketed,
+        first_hit=room('first_hit', (shots,), np.int64),
+        failed=room('failed', (shots,), np.int8),
+        events=None,
+        offsets=None,
+    )
 
 
 def with_events(outcomes: Outcomes, events: NDArray[np.void]) -> Outcomes:
@@ -118,11 +123,9 @@ def with_events(outcomes: Outcomes, events: NDArray[np.void]) -> Outcomes:
     return outcomes._replace(events=events, offsets=offsets)
 
 
-def _checked(
-    name: str, array: NDArray[np.generic], shape: tuple[int, ...], dtype: type
-) -> NDArray[np.generic]:
+def _checked(name: str, array: Any, shape: tuple[int, ...], dtype: type) -> NDArray[Any]:
     right = isinstance(array, np.ndarray) and array.shape == shape and array.dtype == dtype
     if not (right and array.flags.c_contiguous and array.flags.writeable):
         kind = np.dtype(dtype).name
-        raise ValueError(f'{name}: must be a writable C-contiguous array of {shape} {kind}')
+        raise ValueError(f'out.{name}: must be a writable C-contiguous array of {shape} {kind}')
     return np.asarray(array)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Literal, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pool_sim_ros.physics.boundary import Rectangle
 from pool_sim_ros.physics.motion import DiscTable, balls_at_rest
 from pool_sim_ros.physics.validation import check_layout, number, numbers
 
-BALL_FRICTION_LAWS = ('report', 'coulomb')
+BallFriction = Literal['report', 'coulomb']
+BALL_FRICTION_LAWS: tuple[BallFriction, ...] = get_args(BallFriction)
 
 MASSES = (1e-9, 1e9)
 RADII = (1e-6, 1e3)
@@ -112,7 +115,7 @@ class Table:
     e_ball_ball: float = 0.90
     e_ball_cushion: float = 0.70
     gravity: float = 9.80665
-    ball_friction: str = 'report'
+    ball_friction: BallFriction = 'report'
 
     def __post_init__(self) -> None:
         for name in ('length', 'width'):
@@ -141,22 +144,22 @@ class Table:
         return tuple(ball.label for ball in self.balls)
 
     @cached_property
-    def positions(self) -> np.ndarray:
+    def positions(self) -> NDArray[np.float64]:
         """Start positions, (n, 2), m; read-only."""
         return _read_only([ball.position for ball in self.balls])
 
     @cached_property
-    def radii(self) -> np.ndarray:
+    def radii(self) -> NDArray[np.float64]:
         """Radii, (n,), m; read-only."""
         return _read_only([ball.radius for ball in self.balls])
 
     @cached_property
-    def masses(self) -> np.ndarray:
+    def masses(self) -> NDArray[np.float64]:
         """Masses, (n,), kg; read-only."""
         return _read_only([ball.mass for ball in self.balls])
 
     @cached_property
-    def is_cue(self) -> np.ndarray:
+    def is_cue(self) -> NDArray[np.bool_]:
         """Whether each ball is the cue ball, (n,); read-only."""
         return _read_only([ball.is_cue for ball in self.balls], dtype=bool)
 
@@ -181,7 +184,7 @@ class Table:
         )
 
     @cached_property
-    def balls_at_rest(self) -> np.ndarray:
+    def balls_at_rest(self) -> NDArray[np.void]:
         """The kernels' records of the balls where they start, (n,); read-only."""
         records = balls_at_rest(self.positions, self.radii, self.masses, self.is_cue)
         records.flags.writeable = False
@@ -211,7 +214,7 @@ def _balls(balls: Iterable[Ball]) -> tuple[Ball, ...]:
     return balls
 
 
-def _read_only(values: list, dtype: type = float) -> np.ndarray:
-    array = np.array(values, dtype=dtype)
+def _read_only(values: Sequence[object], dtype: type = float) -> NDArray[Any]:
+    array: NDArray[Any] = np.array(values, dtype=dtype)
     array.flags.writeable = False
     return array

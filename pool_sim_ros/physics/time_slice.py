@@ -109,12 +109,21 @@ def play_parts(
             tell(1)
 
 
-def _play(table, layout, at_rest, velocities, step, limits, log):
+def _play(
+    table: Table,
+    layout: NDArray[np.float64] | None,
+    at_rest: NDArray[np.float64],
+    velocities: NDArray[np.float64],
+    step: float,
+    limits: tuple[float, int],
+    log: Log,
+) -> Shot:
     """Play one shot, and again where the log had too little room, unless it has none."""
     start = at_rest if layout is None or not len(layout) else layout
     if start is layout and is_bad(table, layout):
-        nowhere = np.full((2, *start.shape), np.nan)
-        return Shot(BAD_LAYOUT, math.nan, False, *nowhere, log.events[:0], log.segments[:0], 0, -1)
+        nowhere = np.full(start.shape, np.nan)
+        nothing = log.events[:0], log.segments[:0]
+        return Shot(BAD_LAYOUT, math.nan, False, nowhere, nowhere, *nothing, 0, -1)
     until, max_events = limits
     while True:
         state = new_state(table, start, velocities, step, log)

@@ -41,14 +41,14 @@ class Trajectory:
     """
 
     table: Table
-    final_positions: np.ndarray
-    final_velocities: np.ndarray
+    final_positions: NDArray[np.float64]
+    final_velocities: NDArray[np.float64]
     duration: float
-    events: np.ndarray
-    segments: np.ndarray
+    events: NDArray[np.void]
+    segments: NDArray[np.void]
     complete: bool
 
-    def positions(self, times: ArrayLike) -> np.ndarray:
+    def positions(self, times: ArrayLike) -> NDArray[np.float64]:
         """Return where the balls are.
 
         Parameters
@@ -68,11 +68,11 @@ class Trajectory:
         """
         return self._look_up(times, 0)
 
-    def velocities(self, times: ArrayLike) -> np.ndarray:
+    def velocities(self, times: ArrayLike) -> NDArray[np.float64]:
         """Return how fast the balls move, in m/s; as `positions`. At an event: just after it."""
         return self._look_up(times, 1)
 
-    def path(self, ball: int) -> np.ndarray:
+    def path(self, ball: int) -> NDArray[np.float64]:
         """Return the path of one ball, from its start to its end.
 
         Parameters
@@ -96,7 +96,7 @@ class Trajectory:
         new = np.any(np.diff(joined, axis=0) != 0.0, axis=1)
         return joined[np.concatenate([[True], new])]
 
-    def _look_up(self, times: ArrayLike, what: int) -> np.ndarray:
+    def _look_up(self, times: ArrayLike, what: int) -> NDArray[np.float64]:
         asked = np.asarray(times, dtype=float)
         if asked.ndim > 1:
             raise ValueError(f'times: shape {asked.shape} must be one-dimensional')
@@ -108,7 +108,7 @@ class Trajectory:
         look_up(self.segments, first, order, flat, what, found)
         return found if asked.ndim else found[0]
 
-    def _check(self, times: np.ndarray) -> None:
+    def _check(self, times: NDArray[np.float64]) -> None:
         bad = ~(times >= 0.0)
         if bad.any():
             raise ValueError(f'times: {times[bad][0]} must be a time since the strike, 0 or more')
@@ -117,7 +117,7 @@ class Trajectory:
             raise ValueError(f'times: {late} is after the shot was cut, at {self.duration} s')
 
     @cached_property
-    def _by_ball(self) -> tuple[np.ndarray, np.ndarray]:
+    def _by_ball(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Where each ball's segments begin in an order that sorts them by ball, and that order."""
         order = np.argsort(self.segments['ball'], kind='stable')
         counts = np.bincount(self.segments['ball'], minlength=len(self.final_positions))

@@ -25,7 +25,7 @@ def number(
 ) -> float:
     """Return `value` as a float; raise ValueError, naming it, where it is no number in range."""
     try:
-        number = float(value)
+        number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise ValueError(f'{name}: {value!r} is not a number') from None
     if not math.isfinite(number):
@@ -44,7 +44,7 @@ def numbers(
 ) -> tuple[float, ...]:
     """Return `values` as floats; raise ValueError where they are not `count` numbers in range."""
     try:
-        items = tuple(values)
+        items: tuple[object, ...] = tuple(values)  # type: ignore[arg-type]
     except TypeError:
         items = ()
     if isinstance(values, str) or len(items) != count:

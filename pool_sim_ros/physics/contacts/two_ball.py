@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.boundary import Rectangle
 from pool_sim_ros.physics.contacts.discs import collide_balls
 from pool_sim_ros.physics.motion import DiscTable
-from pool_sim_ros.physics.table import BALL_FRICTION_LAWS
+from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, BallFriction
 from pool_sim_ros.physics.validation import number, numbers
 
 
@@ -36,8 +37,8 @@ class TwoBallCollision(NamedTuple):
     tangential_before: tuple[float, float]
     normal_after: tuple[float, float]
     tangential_after: tuple[float, float]
-    velocity_a: np.ndarray
-    velocity_b: np.ndarray
+    velocity_a: NDArray[np.float64]
+    velocity_b: NDArray[np.float64]
 
 
 def two_ball_collision(
@@ -50,7 +51,7 @@ def two_ball_collision(
     offset: float,
     restitution: float,
     friction: float,
-    ball_friction: str = 'coulomb',
+    ball_friction: BallFriction = 'coulomb',
 ) -> TwoBallCollision:
     """Return the velocities of two balls after they collide (report, section 1).
 
@@ -118,7 +119,7 @@ def two_ball_collision(
     )
 
 
-def _in_frame(v: tuple[float, float], normal: tuple[float, float]) -> tuple[float, float]:
+def _in_frame(v: Sequence[float], normal: tuple[float, float]) -> tuple[float, float]:
     """Return the normal and tangential parts of a velocity (report, Equation 5)."""
     return v[0] * normal[0] + v[1] * normal[1], v[1] * normal[0] - v[0] * normal[1]
 

@@ -205,7 +205,9 @@ class WorkArea:
             self._state = self._state._replace(log=new_log(2 * n_events, 2 * n_segments))
         events, segments = copied(log.events[:n_events]), copied(log.segments[:n_segments])
         first_hit = int(log.counts[FIRST_HIT])
-        return Shot(failed, duration, complete, *ends, events, segments, n_events, first_hit)
+        return Shot(
+            failed, duration, complete, ends[0], ends[1], events, segments, n_events, first_hit
+        )
 
 
 def work_area(table: Table) -> WorkArea:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.event_driven.few_balls import FewBalls, n_moving, new_few_balls
-from pool_sim_ros.physics.jit import inlined, kernel
+from pool_sim_ros.physics.jit import Record, inlined, kernel
 from pool_sim_ros.physics.tolerances import CELL_MARGIN
 
 FEW = 40
@@ -135,7 +135,7 @@ def list_cells(balls: NDArray[np.void], grid: CellGrid, x0: int, x1: int, y0: in
 
 
 @inlined
-def cell_edges(grid: CellGrid, ball: np.void) -> tuple[float, float, float, float]:
+def cell_edges(grid: CellGrid, ball: Record) -> tuple[float, float, float, float]:
     """Return where a ball leaves its cell: x low and high, y low and high, m.
 
     The sides of the table are no way out: infinite.

@@ -6,7 +6,7 @@ other core, which costs two threads a tenth of their speed.
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 
@@ -29,8 +29,9 @@ def own_lines(arrays: Arrays) -> Arrays:
         start = LINE - room.ctypes.data % LINE + LINE
         own = room[start : start + arrays.nbytes].view(arrays.dtype).reshape(arrays.shape)
         own[...] = arrays
-        return own
+        return cast(Arrays, own)
     if not isinstance(arrays, tuple):
         return arrays
     parts = [own_lines(part) for part in arrays]
-    return type(arrays)(*parts) if hasattr(arrays, '_fields') else tuple(parts)
+    joined = type(arrays)(*parts) if hasattr(arrays, '_fields') else tuple(parts)
+    return cast(Arrays, joined)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.contacts import restitution
-from pool_sim_ros.physics.jit import inlined
+from pool_sim_ros.physics.jit import Record, inlined
 from pool_sim_ros.physics.tolerances import (
     COLLAPSE_GROWTH,
     LAST_ROUND,
@@ -35,7 +35,7 @@ def rounds_at(balls: NDArray[np.void], a: int, b: int, now: float) -> int:
 
 
 @inlined
-def count_round(ball: np.void, now: float) -> None:
+def count_round(ball: Record, now: float) -> None:
     """Count a contact of a ball at `now`, s."""
     again = now - ball.last_contact_time < ROUND
     ball.rounds = min(ball.rounds, LAST_ROUND) + 1 if again else 1

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.contacts import rub_balls, rub_cushion
 from pool_sim_ros.physics.event_driven.contact_group import ContactGroup, closing_speed
 from pool_sim_ros.physics.event_driven.state import State
-from pool_sim_ros.physics.jit import kernel
+from pool_sim_ros.physics.jit import Record, kernel
 from pool_sim_ros.physics.tolerances import IMPULSE_PRECISION, MAX_ITERATIONS
 
 
@@ -94,7 +94,7 @@ def total_compliance(balls: NDArray[np.void], group: ContactGroup, count: int, c
 
 
 @kernel
-def push(balls: NDArray[np.void], group: ContactGroup, contact: np.void, impulse: float) -> None:
+def push(balls: NDArray[np.void], group: ContactGroup, contact: Record, impulse: float) -> None:
     """Apply a normal impulse in N s to both sides of a contact."""
     a, b = contact.a, contact.b
     one = group.by_ball[a]
@@ -107,7 +107,7 @@ def push(balls: NDArray[np.void], group: ContactGroup, contact: np.void, impulse
 
 
 @kernel
-def rub(state: State, contact: np.void) -> None:
+def rub(state: State, contact: Record) -> None:
     """Apply the friction that goes with a contact's normal impulse.
 
     `coulomb`: from the velocities that the normal impulses left, each ball's mass divided by the

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.boundary import PHASE_END, Rectangle, distance_to_cushions
+from pool_sim_ros.physics.jit import Record
 from pool_sim_ros.physics.log import STOP
 from pool_sim_ros.physics.motion.phase import MOVES, RESTS
 from pool_sim_ros.physics.motion.relative import RelativeMotion
@@ -66,24 +67,28 @@ class DiscTable(NamedTuple):
     cue_ball: int  # its number; -1 for none
 
 
-def position_at(ball, table, t):
+def position_at(ball: Record, table: DiscTable, t: float) -> tuple[float, float]:
+    """Return where a disc is at `t`, m."""
     elapsed = t - ball.since
     distance = elapsed * (ball.speed - 0.5 * table.deceleration * elapsed)
     # At rest that is exactly where it is: its direction is zero.
     return ball.x + ball.ux * distance, ball.y + ball.uy * distance
 
 
-def velocity_at(ball, table, t):
+def velocity_at(ball: Record, table: DiscTable, t: float) -> tuple[float, float]:
+    """Return the velocity of a disc at `t`, m/s."""
     speed = max(ball.speed - table.deceleration * (t - ball.since), 0.0)
     return ball.ux * speed, ball.uy * speed
 
 
-def acceleration(ball, table):
+def acceleration(ball: Record, table: DiscTable) -> tuple[float, float]:
+    """Return its acceleration, against its motion, m/s^2."""
     # Not -0.0 at rest, where a file or a print would show it.
     return 0.0 - table.deceleration * ball.ux, 0.0 - table.deceleration * ball.uy
 
 
-def set_off(ball, table, vx, vy):
+def set_off(ball: Record, table: DiscTable, vx: float, vy: float) -> None:
+    """Begin a new motion at (vx, vy), m/s."""
     speed = np.sqrt(vx * vx + vy * vy)
     if speed == 0.0:
         ball.ux, ball.uy, ball.speed, ball.phase = 0.0, 0.0, 0.0, RESTS
@@ -93,11 +98,13 @@ def set_off(ball, table, vx, vy):
     ball.changes += 1
 
 
-def phase_end_time(ball, table):
+def phase_end_time(ball: Record, table: DiscTable) -> float:
+    """Return when a moving disc comes to rest, s."""
     return ball.since + ball.speed / table.deceleration
 
 
-def end_phase(ball, table, now):
+def end_phase(ball: Record, table: DiscTable, now: float) -> int:
+    """Bring a disc to rest."""
     distance = 0.5 * ball.speed * ball.speed / table.deceleration
     ball.x += ball.ux * distance
     ball.y += ball.uy * distance
@@ -107,11 +114,13 @@ def end_phase(ball, table, now):
     return STOP
 
 
-def runs_away(ball, table, most):
+def runs_away(ball: Record, table: DiscTable, most: float) -> bool:
+    """Return whether twice its energy at `since` is above `most`, J."""
     return ball.speed * ball.speed > most * ball.inverse_mass
 
 
-def path_from(ball, table, now):
+def path_from(ball: Record, table: DiscTable, now: float) -> StraightPath:
+    """Return the straight path from `now` on."""
     elapsed = now - ball.since
     distance = elapsed * (ball.speed - 0.5 * table.deceleration * elapsed)
     speed = max(ball.speed - table.deceleration * elapsed, 0.0)
@@ -119,7 +128,8 @@ def path_from(ball, table, now):
     return StraightPath(x, y, ball.ux, ball.uy, speed)
 
 
-def time_to_boundary(path, table, ball):
+def time_to_boundary(path: StraightPath, table: DiscTable, ball: Record) -> tuple[float, int]:
+    """Return the seconds to the first cushion within reach."""
     distance, partner = distance_to_cushions(
         table.boundary, path.x, path.y, path.ux, path.uy, ball.radius
     )
@@ -128,7 +138,15 @@ def time_to_boundary(path, table, ball):
     return np.inf, PHASE_END
 
 
-def time_to_cell_edge(path, table, x_low, x_high, y_low, y_high):
+def time_to_cell_edge(
+    path: StraightPath,
+    table: DiscTable,
+    x_low: float,
+    x_high: float,
+    y_low: float,
+    y_high: float,
+) -> tuple[float, int, int]:
+    """Return the seconds to the edge of the cell, and the step over it."""
     to_x = to_y = np.inf
     step_x, step_y = 1, 1
     if path.ux > 0.0:
@@ -148,7 +166,14 @@ def time_to_cell_edge(path, table, x_low, x_high, y_low, y_high):
     return seconds, 0, step_y
 
 
-def first_resting_ball(path, table, radius, lasts, rows):
+def first_resting_ball(
+    path: StraightPath,
+    table: DiscTable,
+    radius: float,
+    lasts: float,
+    rows: NDArray[np.float64],
+) -> tuple[float, int]:
+    """Return the seconds to the first resting ball, and which, of few."""
     reach = distance_covered(lasts, path.speed, table.deceleration)
     distance, ball = first_on_path(path, radius, reach, rows)
     if ball < 0:
@@ -156,7 +181,16 @@ def first_resting_ball(path, table, radius, lasts, rows):
     return time_to_cover(distance, path.speed, table.deceleration), ball
 
 
-def first_resting_of(path, table, radius, lasts, balls, listed, count):
+def first_resting_of(
+    path: StraightPath,
+    table: DiscTable,
+    radius: float,
+    lasts: float,
+    balls: NDArray[np.void],
+    listed: NDArray[np.int64],
+    count: int,
+) -> tuple[float, int]:
+    """Return the seconds to the first resting ball, and which, of those listed."""
     nearest, ball = distance_covered(lasts, path.speed, table.deceleration), -1
     for m in range(count):
         other = balls[listed[m]]
@@ -170,14 +204,18 @@ def first_resting_of(path, table, radius, lasts, balls, listed, count):
     return time_to_cover(nearest, path.speed, table.deceleration), ball
 
 
-def time_to_resting_ball(path, table, dx, dy, touch):
+def time_to_resting_ball(
+    path: StraightPath, table: DiscTable, dx: float, dy: float, touch: float
+) -> float:
+    """Return the seconds to a resting ball within reach."""
     a = table.deceleration
     reach = np.inf if a == 0.0 else 0.5 * path.speed * path.speed / a
     distance = distance_to_resting_ball(dx, dy, path.ux, path.uy, touch, reach)
     return time_to_cover(distance, path.speed, a) if distance < reach else np.inf
 
 
-def relative_motion(path, table, other):
+def relative_motion(path: StraightPath, table: DiscTable, other: StraightPath) -> RelativeMotion:
+    """Return how the disc on path `other` moves relative to that on `path`."""
     a = table.deceleration
     return RelativeMotion(
         other.x - path.x,
