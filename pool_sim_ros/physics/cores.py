@@ -37,11 +37,15 @@ def share_out(
     if helpers < 1:
         play(left, False)
         return
-    with ThreadPoolExecutor(helpers) as pool:
-        helping = [pool.submit(play, left, True) for _ in range(helpers)]
+
+    def help_out() -> None:
         try:
             play(left, True)
         finally:
             list(left)  # interrupted: nobody else goes on either
+
+    with ThreadPoolExecutor(helpers) as pool:
+        helping = [pool.submit(help_out) for _ in range(helpers)]
+        help_out()
     for helper in helping:
         helper.result()

@@ -14,6 +14,9 @@ BAD_VELOCITY = 4
 """The same for a single shot, before it is told in words."""
 
 
+NO_POCKET = np.int64(-1).tobytes()
+
+
 class ShotTooLong(ValueError):  # noqa: N818, the public name
     """A shot had more events than it may have."""
 
@@ -99,8 +102,8 @@ def new_outcomes(shots: int, balls: int, out: Outcomes | None) -> Outcomes:
         given = getattr(out, name, None)
         return np.empty(shape, dtype) if given is None else _checked(name, given, shape, dtype)
 
-    # No table has pockets yet: one number stands for all.
-    pocketed: NDArray[np.int64] = np.broadcast_to(np.int64(-1), (shots, balls))
+    # No table has pockets yet: one number stands for all, which nobody can change.
+    pocketed: NDArray[np.int64] = np.ndarray((shots, balls), np.int64, NO_POCKET, strides=(0, 0))
     if out is not None and out.pocketed is not None and out.pocketed.flags.writeable:
         pocketed = _checked('pocketed', out.pocketed, (shots, balls), np.int64)
         pocketed[...] = -1

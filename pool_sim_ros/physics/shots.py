@@ -26,7 +26,7 @@ from pool_sim_ros.physics.progress import Counter, Progress
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import MAX_SPEED, MOST_EVENTS, MOST_EVENTS_A_BALL
 from pool_sim_ros.physics.trajectory import Trajectory
-from pool_sim_ros.physics.validation import array, check_layout, number
+from pool_sim_ros.physics.validation import array, check_layout, number, whole_number
 
 Integrator = Literal['event', 'time_slice']
 INTEGRATORS: tuple[Integrator, ...] = get_args(Integrator)
@@ -153,8 +153,8 @@ def simulate_many(
     limits = _limits(table, integrator, time_slice, until, max_events)
     if errors not in ('raise', 'mark'):
         raise ValueError(f"errors: {errors!r} must be 'raise' or 'mark'")
-    if threads is not None and not (isinstance(threads, int) and threads >= 1):
-        raise ValueError(f'threads: {threads!r} must be a whole number, 1 or more')
+    if threads is not None:
+        threads = whole_number('threads', threads, least=1)
     moving = _velocities(table, velocities, 2)
     shots = len(moving)
     at_rest, layouts = table.balls_at_rest, np.empty((shots, 0, 2))
@@ -234,7 +234,7 @@ def _limits(
     if max_events is None:
         max_events = max(MOST_EVENTS, MOST_EVENTS_A_BALL * len(table.balls))
     else:
-        max_events = int(number('max_events', max_events, least=1, most=2**62))
+        max_events = whole_number('max_events', max_events, least=1)
     return math.inf if until is None else number('until', until, least=0.0), max_events
 
 
@@ -297,9 +297,11 @@ def _check_end(
     time_slice: float,
 ) -> None:
     """Raise ValueError where balls would never come to rest."""
-    if until is not None or (integrator == 'event' and table.deceleration > 0.0):
+    if integrator == 'event' and (until is not None or table.deceleration > 0.0):
         return
     _check_speeds(velocities)
+    if until is not None:
+        return
     fastest = float(np.abs(velocities).max(initial=0.0))
     if fastest == 0.0:
         return

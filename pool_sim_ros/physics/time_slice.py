@@ -99,7 +99,7 @@ def play_parts(
             log = new_log(0, 0) if store is None else new_log(FIRST_ROOM, FIRST_ROOM)
             shot = _play(table, shots[1][i], start, shots[0][i], step, limits, log)
             played = shot.failed == PLAYED
-            ends.finals[i] = shot.final_positions
+            ends.finals[i] = shot.final_positions if played else np.nan
             ends.durations[i] = shot.duration
             ends.event_counts[i] = shot.n_events if played else -1
             ends.first_hit[i] = shot.first_hit if played else -1
@@ -196,7 +196,7 @@ def run(state: Slices, last: int, max_events: int) -> int:
     n = len(state.balls)
     log = state.log
     while state.clock[0] < last and anything_moves(state):
-        if log.counts[N_EVENTS] >= max_events:
+        if log.counts[N_EVENTS] > max_events:
             return TOO_MANY_EVENTS
         state.clock[0] += 1
         now = state.clock[0] * state.step
@@ -223,7 +223,7 @@ def run(state: Slices, last: int, max_events: int) -> int:
             state.moving[i] = state.v[i, 0] != 0.0 or state.v[i, 1] != 0.0
         if lost:
             return RUNS_AWAY
-    return PLAYED
+    return TOO_MANY_EVENTS if log.counts[N_EVENTS] > max_events else PLAYED
 
 
 @kernel

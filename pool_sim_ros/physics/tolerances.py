@@ -20,6 +20,9 @@ CELL_MARGIN = 1e-6
 PATH_SAG = 1e-5
 """Distance in m between a curved path and the line that is drawn for it: less than is ever seen."""
 
+STRAIGHT = 1e-12
+"""Cross product of velocity and acceleration, beside both, that is rounding: a straight path."""
+
 # Contact times
 
 MAX_STEPS = 200

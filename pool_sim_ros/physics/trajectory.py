@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.jit import kernel
 from pool_sim_ros.physics.table import Table
-from pool_sim_ros.physics.tolerances import PATH_SAG
+from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,16 +126,26 @@ class Trajectory:
 
 def _curve(segment: np.void, lasts: float) -> NDArray[np.float64]:
     """Return points on a segment, (k, 2) in m, the first at its start and none at its end."""
-    start = np.array([[segment['x'], segment['y']]])
     v = np.array([segment['vx'], segment['vy']])
     a = np.array([segment['ax'], segment['ay']])
-    speed = math.hypot(*v)
-    aside = abs(v[0] * a[1] - v[1] * a[0]) / speed if speed > 0.0 else math.hypot(*a)
-    sag = aside * lasts * lasts / 8.0  # of the whole, seen from its chord
-    if not sag > PATH_SAG:
-        return start
-    t = np.linspace(0.0, lasts, math.ceil(math.sqrt(sag / PATH_SAG)), endpoint=False)[:, np.newaxis]
-    return start + t * (v + 0.5 * t * a)
+    sag = _most_across(v, a, lasts) * lasts * lasts / 8.0
+    count = max(math.ceil(math.sqrt(sag / PATH_SAG)), 1)
+    t = np.linspace(0.0, lasts, count, endpoint=False)[:, np.newaxis]
+    return np.array([segment['x'], segment['y']]) + t * (v + 0.5 * t * a)
+
+
+def _most_across(v: NDArray[np.float64], a: NDArray[np.float64], lasts: float) -> float:
+    """Return the most that an acceleration is across its path, m/s^2.
+
+    The cross product of acceleration and velocity is constant. So this is where the speed is
+    least: at the point nearest to a turn.
+    """
+    cross = abs(float(v[0] * a[1] - v[1] * a[0]))
+    squared = float(a @ a)
+    if cross <= STRAIGHT * math.hypot(*v) * math.sqrt(squared):
+        return 0.0
+    slowest = min(max(-float(v @ a) / squared, 0.0), lasts)
+    return cross / math.hypot(*(v + slowest * a))
 
 
 @kernel
@@ -165,7 +175,7 @@ def look_up(
             if what == 1:
                 found[k, i, 0] = segment.vx + segment.ax * elapsed
                 found[k, i, 1] = segment.vy + segment.ay * elapsed
-            elif segment.vx == 0.0 and segment.vy == 0.0 and segment.ax == 0.0:
+            elif segment.ax == 0.0 and segment.ay == 0.0 and segment.vx == 0.0 == segment.vy:
                 # At rest, for ever: infinity times nothing is no number.
                 found[k, i, 0], found[k, i, 1] = segment.x, segment.y
             else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -39,6 +40,17 @@ def number(
     return number
 
 
+def whole_number(name: str, value: object, least: int) -> int:
+    """Return `value` as an int; raise ValueError, naming it, where it is none or too small."""
+    try:
+        whole = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise ValueError(f'{name}: {value!r} is not a whole number') from None
+    if not least <= whole < 2**63:
+        raise ValueError(f'{name}: {whole} must be at least {least} and below 2**63')
+    return whole
+
+
 def numbers(
     name: str, values: object, count: int, least: float = -math.inf, most: float = math.inf
 ) -> tuple[float, ...]:
@@ -55,6 +67,8 @@ def numbers(
 def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return `values` as an array of floats; raise ValueError, naming it, where it is none."""
     try:
+        if np.iscomplexobj(values):
+            raise TypeError
         return np.asarray(values, dtype=float)
     except (TypeError, ValueError):
         raise ValueError(f'{name}: {values!r} is not an array of numbers') from None

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
-from numba import typeof
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.event_driven.engine import finish, run, strike
@@ -22,7 +20,7 @@ from pool_sim_ros.physics.event_driven.state import (
     start_of,
 )
 from pool_sim_ros.physics.event_store import EventStore
-from pool_sim_ros.physics.jit import inlined, kernel
+from pool_sim_ros.physics.jit import call_directly, inlined, kernel
 from pool_sim_ros.physics.log import EVENT, FIRST_HIT, N_EVENTS, N_SEGMENTS, new_log
 from pool_sim_ros.physics.outcomes import BAD_LAYOUT, BAD_VELOCITY, PLAYED, RUNS_AWAY, Ends, Shot
 from pool_sim_ros.physics.table import Table
@@ -46,18 +44,19 @@ def play(
     start: Start,
     velocities: NDArray[np.float64],
     layout: NDArray[np.float64],
+    whole: bool,
     limits: tuple[float, int],
     ends: tuple[NDArray[np.float64], NDArray[np.float64]],
 ) -> tuple[int, float, bool]:
     """Play one shot from a layout, (n, 2) in m; from the start, where the layout has no rows.
 
-    Of one state either all shots begin from a layout, or none.
+    The start must be made `whole` where the state is not known to have been played from it last.
 
     `limits` are the end of the clock in s and the most events, `ends` the final positions and
     velocities. Returns how it ended, the duration in s and whether all balls rest.
     """
     until, max_events = limits
-    reset(state, start)
+    reset(state, start, whole)
     if len(layout) > 0 and not place(state, start, layout):
         return BAD_LAYOUT, np.nan, False
     most = strike(state, velocities)
@@ -86,7 +85,9 @@ def play_one(
         # Written so that NaN is refused too.
         if not (abs(velocities[i, 0]) <= MAX_SPEED and abs(velocities[i, 1]) <= MAX_SPEED):
             return BAD_VELOCITY, np.nan, False, 0, 0
-    failed, duration, complete = play(state, start, velocities, layout, limits, (ends[0], ends[1]))
+    failed, duration, complete = play(
+        state, start, velocities, layout, False, limits, (ends[0], ends[1])
+    )
     counts = state.log.counts
     return failed, duration, complete, counts[N_EVENTS], counts[N_SEGMENTS]
 
@@ -131,6 +132,7 @@ def play_some(
             start,
             velocities[shot],
             layouts[shot],
+            shot == first,
             limits,
             (results.finals[shot], final_velocities),
         )
@@ -171,8 +173,8 @@ class WorkArea:
         self.table = table
         n = len(table.balls)
         log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n)
-        self._state = new_state(table.for_kernels, table.balls_at_rest, log)
-        self._start = start_of(self._state)
+        self.state = new_state(table.for_kernels, table.balls_at_rest, log)
+        self.start = start_of(self.state)
         self._own_layout = np.array(table.positions)
 
     def play(
@@ -196,13 +198,20 @@ class WorkArea:
         layout = self._own_layout if layout is None else layout
         ends = np.empty((2, len(self.table.balls), 2))
         while True:
-            failed, duration, complete, n_events, n_segments = _play_one(
-                self._state, self._start, velocities, layout, limits, ends
+            failed, duration, complete, n_events, n_segments = call_directly(
+                play_one,
+                type(self.state.table),
+                self.state,
+                self.start,
+                velocities,
+                layout,
+                limits,
+                ends,
             )
-            log = self._state.log
+            log = self.state.log
             if n_events <= len(log.events) and n_segments <= len(log.segments):
                 break
-            self._state = self._state._replace(log=new_log(2 * n_events, 2 * n_segments))
+            self.state = self.state._replace(log=new_log(2 * n_events, 2 * n_segments))
         events, segments = copied(log.events[:n_events]), copied(log.segments[:n_segments])
         first_hit = int(log.counts[FIRST_HIT])
         return Shot(
@@ -221,21 +230,6 @@ def work_area(table: Table) -> WorkArea:
 
 
 _kept = threading.local()
-_entry_points: dict[type, Callable[..., Any]] = {}
-
-
-def _play_one(state: State, *args: Any) -> tuple[int, float, bool, int, int]:
-    """Call `play_one` past numba's look at the types of all arguments, which takes longer.
-
-    The types are the same in each call for one type of table.
-    """
-    kind = type(state.table)
-    if kind in _entry_points:
-        return _entry_points[kind](state, *args)
-    ended = play_one(state, *args)
-    types = tuple(typeof(argument) for argument in (state, *args))
-    _entry_points[kind] = play_one.overloads[types].entry_point
-    return ended
 
 
 def play_parts(
@@ -271,8 +265,12 @@ def play_parts(
     """
     n = len(table.balls)
     log = new_log(0 if store is None else FIRST_ROOM + n, 0)
-    state = new_state(table.for_kernels, at_rest, log)
-    start = start_of(state)
+    if shared or at_rest is not table.balls_at_rest:
+        state = new_state(table.for_kernels, at_rest, log)
+        start = start_of(state)
+    else:
+        area = work_area(table)
+        state, start = area.state._replace(log=log), area.start
     if shared:
         state = own_lines(state)
     final_velocities = np.empty((n, 2))
@@ -282,7 +280,9 @@ def play_parts(
         count, done, filled = len(velocities), 0, 0
         room = NO_EVENTS if store is None else store.room(EVENTS_A_SHOT * count)
         while done < count:
-            done, filled = play_some(
+            done, filled = call_directly(
+                play_some,
+                type(state.table),
                 state,
                 start,
                 (velocities, layouts),

@@ -41,7 +41,7 @@ def run(state: State, until: float, most: float, max_events: int) -> int:
     """
     log = state.log
     idle, most_idle = 0, longest_idleness(state)
-    while log.counts[N_EVENTS] < max_events and idle <= most_idle:
+    while log.counts[N_EVENTS] <= max_events and idle <= most_idle:
         now, a = first(state.queue)
         if not now <= until or now == np.inf:
             return PLAYED

@@ -49,14 +49,13 @@ def new_state(table: Any, at_rest: NDArray[np.void], log: Log) -> State:
 def start_of(state: State) -> Start:
     """Return what `reset` needs to bring a state back to where it is now, at rest."""
     balls, grid = copied(state.balls), state.grid
-    room = max(clearance(state), 0.0) if has_few(grid) else 0.0
+    room = max(clearance(balls, state.table.boundary), 0.0) if has_few(grid) else 0.0
     return Start(balls, grid.first.copy(), grid.following.copy(), state.queue.copy(), room * room)
 
 
 @kernel
-def clearance(state: State) -> float:
+def clearance(balls: NDArray[np.void], boundary: Any) -> float:
     """Return by how much all balls may be moved from where they rest, each anywhere, m."""
-    balls, boundary = state.balls, state.table.boundary
     least = np.inf
     for i in range(len(balls)):
         one = balls[i]
@@ -76,13 +75,16 @@ def copied(records: NDArray[np.void]) -> NDArray[np.void]:
 
 
 @inlined
-def reset(state: State, start: Start) -> None:
-    """Put everything back to the start; positions only of balls that have moved since."""
+def reset(state: State, start: Start, whole: bool) -> None:
+    """Put everything back to the start.
+
+    Balls that have not moved since the last reset stay as they are, unless `whole`.
+    """
     balls, grid, queue = state.balls, state.grid, state.queue
     few = has_few(grid)
     clear(state.log)
     for i in range(len(balls)):
-        if balls[i].changes > 0 or not few:
+        if whole or balls[i].changes > 0 or not few:
             balls[i] = start.balls[i]
             note_motion(grid.few, balls, i)
     if first(queue)[0] < np.inf:  # else nothing is due any more
