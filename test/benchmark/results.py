@@ -17,6 +17,7 @@ BEGIN, END = '<!-- figures: begin -->', '<!-- figures: end -->'
 SECTIONS = (
     "The report's four shots, one core",
     "Random shots on the report's table",
+    "Planners' calls on the report's table, one core",
     'Many balls, everything moving, one core',
     'Memory',
     'Starting',
