@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from pool_sim_ros.report.played import PlayedShot
     from pool_sim_ros.simulator import Settings
 
-T = TypeVar('T')
-
 INTERRUPTED = 130
 """Exit status after Ctrl-C, as shells have it."""
 
 INTEGRATORS = ('time_slice', 'event')
 """Those of `pool_sim_ros.physics`, which loads in a second: too long for --help."""
+
+T = TypeVar('T')
 
 
 def main(args: list[str] | None = None) -> int:
