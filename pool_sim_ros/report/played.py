@@ -76,6 +76,10 @@ def play_shots(settings: Settings, numbers: Iterable[int]) -> Iterator[PlayedSho
     numbers : iterable of int
         1 to 4.
 
+    Yields
+    ------
+    PlayedShot
+
     Raises
     ------
     ShotError
