@@ -27,7 +27,7 @@ class Cell(str):
 
 def fill(template: str, **parts: object) -> str:
     """Return a file of `templates` with `parts` in place of its ``$names``."""
-    text = resources.files(__package__).joinpath('templates', template).read_text('utf-8')
+    text = (resources.files(__package__) / 'templates' / template).read_text('utf-8')
     return Template(text).substitute(parts)
 
 
