@@ -1,4 +1,4 @@
-"""A node that shoots when the balls rest, and says where the cue ball stopped."""
+"""A node that shoots once and prints where the cue ball stopped."""
 
 import json
 import uuid

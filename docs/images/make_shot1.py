@@ -11,17 +11,17 @@ from PIL import Image, ImageDraw, ImageFont
 from pool_sim_ros.physics import report_table, simulate
 
 SCALE = 270  # pixels per metre
-FINE = 4  # drawn so many times larger, for smooth edges
+FINE = 4  # the scale of drawing, for smooth edges
 RAIL = 0.09  # m
 PERIOD = 0.02  # s; a GIF counts in hundredths
-SLOWED = 2  # times
-LAST = 1.5  # s for which the last picture stays
+SLOWED = 2  # times slower than real time
+LAST = 1.5  # s: how long the last picture stays
 CLOTH, CUSHION, WOOD = '#24754d', '#175337', '#6b4023'
 FILE = Path(__file__).with_name('shot1.gif')
 
 
 def picture(table, positions, trails):
-    """Return the table with the balls at `positions`, (n, 2) m, and their ways so far."""
+    """Return the table with the balls at `positions`, (n, 2) m, and their paths so far."""
     pixels = SCALE * FINE
 
     def place(x, y):
@@ -57,13 +57,13 @@ def main():
     shot = simulate(table, (-4.0, 0.0))
     times = np.append(np.arange(0.0, shot.duration, PERIOD), shot.duration)
     fine = np.linspace(0.0, shot.duration, 2000)
-    ways = shot.positions(fine)
+    paths = shot.positions(fine)
     frames = [
         picture(
             table,
             positions,
             [
-                [*map(tuple, ways[fine <= time, i]), tuple(positions[i])]
+                [*map(tuple, paths[fine <= time, i]), tuple(positions[i])]
                 for i in range(len(table.balls))
             ],
         )

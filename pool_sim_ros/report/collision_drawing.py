@@ -1,8 +1,9 @@
-"""The set-up of Part 1 and its construction lines, as in the report's Figures 1 and 2."""
+"""The setup and the construction lines of Part 1, as in the report's Figures 1 and 2."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,12 +14,12 @@ from pool_sim_ros.report.drawing import LONG_SIDE, empty_figure
 from pool_sim_ros.report.part_one import Example
 
 A_COLOR, B_COLOR = (1.0, 0.55, 0.55), 'white'
-"""Ball a is red and ball b white in the report; light enough here to be written on."""
+"""Red and white as in the report; the red is light enough to read text on it."""
 
 FONT_SIZE = 11
 
-THIN = {'color': 'black', 'linewidth': 0.8}
-GUIDE = {'color': '0.35', 'linewidth': 0.8, 'linestyle': (0, (5, 3))}
+THIN: dict[str, Any] = {'color': 'black', 'linewidth': 0.8}
+GUIDE: dict[str, Any] = {'color': '0.35', 'linewidth': 0.8, 'linestyle': (0, (5, 3))}
 
 
 def draw_setup(collision: Example) -> Figure:
@@ -72,7 +73,7 @@ def draw_construction(collision: Example) -> Figure:
         0.34 * h * _direction(collision.velocity_angle - 0.45 * collision.offset_angle),
         '$\\theta$',
     )
-    # The others begin at the y axis; there is room on its other side.
+    # The other two angles begin at the y axis; their names stand on its free side.
     for angle, radius, name in (
         (collision.impact_angle, 0.92, 'impact'),
         (collision.velocity_angle, 1.24, 'velocity'),
@@ -84,13 +85,13 @@ def draw_construction(collision: Example) -> Figure:
 
 
 def _frame(collision: Example) -> tuple[float, np.ndarray, np.ndarray]:
-    """Distance of the centres, and unit vectors along a's motion and to the left of it."""
+    """Return the distance of the centres, and unit vectors along a's motion and to its left."""
     along = _direction(collision.velocity_angle)
     return collision.reach, along, np.array([-along[1], along[0]])
 
 
 def _direction(angle: float) -> np.ndarray:
-    """Unit vector at an angle in rad from the y axis towards x."""
+    """Return the unit vector at an angle in rad from the y axis towards x."""
     return np.array([math.sin(angle), math.cos(angle)])
 
 
@@ -105,21 +106,30 @@ def _axes(xlim: tuple[float, float], ylim: tuple[float, float]) -> tuple[Figure,
 
 def _balls(axes: Axes, collision: Example, a: np.ndarray, b: np.ndarray) -> None:
     for centre, ball, color in ((a, collision.a, A_COLOR), (b, collision.b, B_COLOR)):
-        axes.add_patch(Circle(centre, ball.radius, facecolor=color, edgecolor='black', zorder=0.5))
+        axes.add_patch(
+            Circle(
+                (centre[0], centre[1]), ball.radius, facecolor=color, edgecolor='black', zorder=0.5
+            )
+        )
         axes.plot(*centre, 'k.', markersize=3)
 
 
-def _line(axes: Axes, start: np.ndarray, end: np.ndarray, **style) -> None:
+def _line(axes: Axes, start: np.ndarray, end: np.ndarray, **style: Any) -> None:
     axes.plot(*np.transpose([start, end]), **style)
 
 
 def _arrow(
-    axes: Axes, start: np.ndarray, end: np.ndarray, style: str, linewidth=0.8, shrink=False
+    axes: Axes,
+    start: np.ndarray,
+    end: np.ndarray,
+    style: str,
+    linewidth: float = 0.8,
+    shrink: bool = False,
 ) -> None:
     axes.annotate(
         '',
-        end,
-        start,
+        (end[0], end[1]),
+        (start[0], start[1]),
         arrowprops={
             'arrowstyle': style,
             'linewidth': linewidth,
@@ -130,11 +140,11 @@ def _arrow(
 
 
 def _text(axes: Axes, place: np.ndarray, text: str) -> None:
-    axes.text(*place, text, ha='center', va='center', fontsize=FONT_SIZE)
+    axes.text(place[0], place[1], text, ha='center', va='center', fontsize=FONT_SIZE)
 
 
 def _angle(axes: Axes, angles: tuple[float, float], radius: float) -> None:
-    """An arc around the origin between two directions in rad from the y axis towards x."""
+    """Draw an arc around the origin between two directions, rad from the y axis towards x."""
     start, end = (90.0 - math.degrees(angle) for angle in reversed(angles))
     axes.add_patch(Arc((0.0, 0.0), 2 * radius, 2 * radius, theta1=start, theta2=end, linewidth=0.8))
 

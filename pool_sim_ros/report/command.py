@@ -1,4 +1,4 @@
-"""The command `report`: everything that the report hands in, made anew."""
+"""The command `report`: it computes the report's outputs anew and writes them to a folder."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from pool_sim_ros.me212 import SHOT_NUMBERS
 from pool_sim_ros.report.errors import ReportError
@@ -24,7 +24,9 @@ INTERRUPTED = 130
 """Exit status after Ctrl-C, as shells have it."""
 
 INTEGRATORS = ('time_slice', 'event')
-"""Those of `pool_sim_ros.physics`, which takes a second to load: too long for --help."""
+"""Those of `pool_sim_ros.physics`, which loads in a second: too long for --help."""
+
+T = TypeVar('T')
 
 
 def main(args: list[str] | None = None) -> int:
@@ -68,14 +70,14 @@ def _draw(
     shots: list[PlayedShot],
     interrupts: Interrupts,
 ) -> list[str]:
-    """Make all that is to be looked at; return what to tell of it."""
+    """Write pictures, films and page; return what the last line of output names."""
     import matplotlib
 
     from pool_sim_ros.report import outputs, page
     from pool_sim_ros.report.comparison import compare
     from pool_sim_ros.report.files import write_text
 
-    # Not the user's own style.
+    # The user's own style must not change the pictures.
     matplotlib.rcdefaults()
     out, table = options.out, settings.table
     drawing = outputs.write_pictures(out, table, shots)
@@ -97,7 +99,7 @@ def _draw(
 
 
 def _films(out: Path, shots: list[PlayedShot], interrupts: Interrupts) -> dict[int, str]:
-    """Make a film of each shot; return the number of the shot -> its path in `out`."""
+    """Make a film of each shot; return number of the shot -> path of its film in `out`."""
     from pool_sim_ros.report.films import frame_count
     from pool_sim_ros.report.outputs import write_film
 
@@ -111,15 +113,15 @@ def _films(out: Path, shots: list[PlayedShot], interrupts: Interrupts) -> dict[i
         return {shot.number: write_film(out, shot, on_frame=on_frame) for shot in shots}
 
 
-def _bar(steps: Iterable | None, total: int, title: str, unit: str = 'it') -> tqdm:
-    """Return a progress bar, on a terminal only."""
+def _bar(steps: Iterable[T] | None, total: int, title: str, unit: str = 'it') -> tqdm[T]:
+    """Return a progress bar, which only a terminal shows."""
     from tqdm import tqdm
 
     return tqdm(steps, title, total, unit=unit, disable=None)
 
 
-def _checking(steps: Iterable, interrupts: Interrupts) -> Iterator:
-    """Yield what `steps` yields, up to an interrupt."""
+def _checking(steps: Iterable[T], interrupts: Interrupts) -> Iterator[T]:
+    """Yield what `steps` yields, until an interrupt."""
     interrupts.check()
     for step in steps:
         interrupts.check()
@@ -137,7 +139,7 @@ def _settings(options: argparse.Namespace) -> Settings:
 
 
 def _check_packages(options: argparse.Namespace) -> None:
-    """Find out before the work begins whether all that it needs is installed."""
+    """Raise ReportError before the work begins if a package that it needs is missing."""
     needed = {}
     if options.table:
         needed['yaml'] = 'PyYAML'
@@ -155,9 +157,9 @@ def _check_packages(options: argparse.Namespace) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='report',
-        description='Compute the four shots of the ME 212 Billiards Project Report and write what '
-        'it hands in: its log, the end positions, pictures and films of the shots, and one page, '
-        'report.html, with the equations, the results and what they are worth.',
+        description='Compute the four shots of the ME 212 Billiards Project Report and write its '
+        'outputs: the log, the end positions, pictures and films of the shots, and one page, '
+        'report.html, with the equations, the results and their accuracy.',
         epilog="Needs no ROS, but the extra 'report': pip install 'pool_sim_ros[report]'.",
     )
     parser.add_argument(
@@ -189,7 +191,7 @@ def _parser() -> argparse.ArgumentParser:
         help='play on another table: a parameter file of sim_node, like config/report.yaml',
     )
     parser.add_argument(
-        '--no-videos', dest='videos', action='store_false', help='make no films: they take longest'
+        '--no-videos', dest='videos', action='store_false', help='make no films, which take longest'
     )
     parser.add_argument('--log-only', action='store_true', help='write output.log and nothing else')
     return parser

@@ -1,4 +1,4 @@
-"""How the print, time slicing and the exact integrator differ, and what the listing does to it."""
+"""Each shot by several methods, to show how print, time slicing and exact result differ."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ SLICES = (1e-4, 1e-5, 2e-6, 1e-6)
 """Slices to compare, s; the last is the report's."""
 
 STATED_E_CUE_BALL = 0.95
-"""`e_cn` of Listing 3, line 13: stated there, but not used."""
+"""`e_cn` of Listing 3, line 13, which states it but does not use it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """One of the report's shots, computed in different ways on the report's table.
+    """One of the report's shots on its table, computed by several methods.
 
     Attributes
     ----------
     number : int
         The shot.
     printed : ndarray of shape (n, 2)
-        Where the report printed that the balls stop, inches.
+        The final positions that the report printed, inches.
     exact : Trajectory
     sliced : dict
         Slice in s -> Trajectory.
     with_e_cn : Trajectory
-        Time slicing with the cue ball's restitution that the property list states.
+        Time slicing with the cue ball's restitution from the property list.
     with_coulomb : Trajectory
-        Time slicing with friction between balls that opposes the slip of both.
+        Time slicing with friction that opposes the slip of both balls.
     """
 
     number: int
@@ -45,7 +45,20 @@ class Comparison:
 
 
 def compare(table: Table, number: int, printed: Mapping[str, tuple[float, float]]) -> Comparison:
-    """Compute a shot of the report in all ways; `printed` is label -> (x, y) in inches."""
+    """Compute a shot of the report by all methods.
+
+    Parameters
+    ----------
+    table : Table
+    number : int
+        1 to 4.
+    printed : mapping
+        Label -> final (x, y) in inches, as the report printed it.
+
+    Returns
+    -------
+    Comparison
+    """
     velocity = cue_velocity(number, table)
 
     def slicing(table: Table, time_slice: float = SLICES[-1]) -> Trajectory:
@@ -67,11 +80,17 @@ def final_inches(trajectory: Trajectory) -> np.ndarray:
 
 
 def greatest_difference(one: np.ndarray, other: np.ndarray) -> tuple[float, int]:
-    """Return how far apart two outcomes are at most in x or y, and the ball where that is.
+    """Return the greatest difference of two outcomes in x or y, and the index of its ball.
 
     Parameters
     ----------
     one, other : ndarray of shape (n, 2)
+
+    Returns
+    -------
+    difference : float
+        In the unit of `one` and `other`.
+    ball : int
     """
     differences = np.abs(one - other).max(axis=1)
     return float(differences.max()), int(differences.argmax())

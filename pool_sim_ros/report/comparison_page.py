@@ -1,4 +1,4 @@
-"""The part of the page that compares the print, time slicing and the exact result."""
+"""The section of the page that compares the print, time slicing and the exact result."""
 
 from __future__ import annotations
 
@@ -23,7 +23,15 @@ REPORT_SLICE = SLICES[-1]
 
 
 def comparison_section(given: Table, comparisons: Sequence[Comparison]) -> str:
-    """Return the section, or one that says that there is nothing to compare with."""
+    """Return the section as HTML; without comparisons it says why there are none.
+
+    Parameters
+    ----------
+    given : Table
+        The report's table.
+    comparisons : sequence of Comparison
+        One for each shot, or none.
+    """
     if not comparisons:
         return fill('no_comparison.html')
     by_number = {comparison.number: comparison for comparison in comparisons}

@@ -1,6 +1,6 @@
 """Pictures of a table: the cloth, and the balls as in Listing 3.
 
-All is drawn to scale in metres, labels included, so that a picture is the same at every size.
+Everything is drawn to scale in metres, labels too, so a picture is the same at every size.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ MARGIN = 0.01
 """White around the table, as a part of its longer side."""
 
 CLOTH_LEVEL, PATH_LEVEL, BALL_LEVEL = 0, 1, 2
-"""What is drawn over what."""
+"""Levels of drawing: the higher over the lower."""
 
 
 class TablePicture:
@@ -45,7 +45,7 @@ class TablePicture:
     ----------
     table : Table
     axes : Axes, optional
-        Where to draw; by default a figure of its own, `LONG_SIDE` long.
+        Where to draw; by default a new figure, `LONG_SIDE` long.
 
     Attributes
     ----------
@@ -53,13 +53,15 @@ class TablePicture:
     axes : Axes
         In m.
     balls : list of Artist
-        In an order in which they may be drawn one over the other.
+        In the order of drawing.
     """
 
     def __init__(self, table: Table, axes: Axes | None = None) -> None:
         self.table = table
         self.axes = _table_axes(table) if axes is None else axes
-        self.figure = self.axes.figure
+        figure = self.axes.get_figure()
+        assert isinstance(figure, Figure)
+        self.figure = figure
         self._places = [Affine2D() for _ in table.balls]
         self.axes.set_axis_off()
         self.axes.set_aspect('equal')
@@ -84,7 +86,7 @@ class TablePicture:
         self.place(table.positions)
 
     def place(self, positions: np.ndarray) -> None:
-        """Put the balls at `positions`, (n, 2) in m."""
+        """Move the balls to `positions`, (n, 2) in m."""
         for place, (x, y) in zip(self._places, positions, strict=True):
             place.clear().translate(x, y)
 
@@ -94,7 +96,7 @@ class TablePicture:
 
 
 def save_figure(figure: Figure, file: IO[bytes] | str, image_format: str, dpi: float = DPI) -> None:
-    """Write a figure, the same bytes for the same figure.
+    """Write a figure; the same figure gives the same bytes.
 
     Parameters
     ----------
@@ -110,20 +112,20 @@ def save_figure(figure: Figure, file: IO[bytes] | str, image_format: str, dpi: f
 
 
 def empty_figure(width: float, height: float) -> Figure:
-    """Return a figure of that size in inches, to be drawn without any window."""
+    """Return an empty figure, width and height in inches, that needs no window."""
     figure = Figure(figsize=(width, height))
     FigureCanvasAgg(figure)
     return figure
 
 
 def label_outline(label: str, size: float) -> Path:
-    """Return a label's outline in bold type, centred on the origin, to fit a circle of `size`.
+    """Return the outline of a label in bold type, centred on the origin, that fits a circle.
 
     Parameters
     ----------
     label : str
     size : float
-        Diameter, m.
+        Diameter of the circle, m.
     """
     if label.isspace():
         return Path(np.empty((0, 2)))
@@ -136,11 +138,11 @@ def label_outline(label: str, size: float) -> Path:
 
 _BOLD = FontProperties(family='DejaVu Sans', weight='bold')
 _LEAST_DIAGONAL = 1.15
-"""Of a label at size 1, so that a single character is not larger than two."""
+"""Least diagonal of a label at size 1, so that one character is not larger than two."""
 
 
 def _ball_artists(ball: Ball) -> Sequence[Artist]:
-    """A ball around the origin: body, white spot, blue label (Listing 3, lines 50 to 52)."""
+    """Return a ball around the origin: body, white spot, blue label (Listing 3, lines 50 to 52)."""
     body = Circle((0.0, 0.0), ball.radius, facecolor=ball.color, edgecolor='black', linewidth=0.5)
     spot = Circle((0.0, 0.0), ball.radius / 2, facecolor='white', linewidth=0.0)
     outline = label_outline(ball.label, 0.9 * ball.radius)

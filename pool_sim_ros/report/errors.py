@@ -1,4 +1,4 @@
-"""What can go wrong while the report is made, and is not the program's fault."""
+"""The error that the command reports in one line: nothing is wrong with the program itself."""
 
 
 class ReportError(Exception):

@@ -1,4 +1,4 @@
-"""Files that appear under their name only when they are whole."""
+"""Files that appear under their names only when they are complete."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ class OutputError(ReportError):
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """Give a name to write to; the file gets its own name when the block has ended well.
+    """Give a temporary name to write to; rename the file when the block ends without an error.
 
-    Folders on the way are made. Where the block ends with an exception, nothing is left of what
-    it wrote, and a file that had the name before is still there.
+    Missing folders are created. If the block raises, the temporary file is removed, and an older
+    file of that name stays as it was.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def whole_file(path: Path) -> Iterator[Path]:
     Raises
     ------
     OutputError
-        Where the folder or the file cannot be written.
+        If the folder or the file cannot be written.
     """
     part = path.with_name(f'.{path.name}.{os.getpid()}.part')
     try:

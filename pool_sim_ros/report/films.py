@@ -1,9 +1,10 @@
-"""Films of shots: which moments they show, and their frames."""
+"""Films of shots: the times that they show, and their frames."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,7 @@ RATE = 60
 """Frames per second (Listing 2, line 17)."""
 
 HOLD = 60
-"""Frames for which a film stands still at its end: one second (Listing 2, line 113)."""
+"""Still frames at the end of a film: one second (Listing 2, line 113)."""
 
 FILM_SIZE = (1280, 720)
 """Pixels; both even, as yuv420p needs."""
@@ -31,7 +32,7 @@ def moving_frames(duration: float) -> int:
         Time until the last ball rests, s.
     """
     last = math.ceil(duration * RATE)
-    # The product may be rounded to the other side of a whole number.
+    # Rounding may put the product on the wrong side of a whole number.
     while last / RATE < duration:
         last += 1
     while last > 0 and (last - 1) / RATE >= duration:
@@ -44,8 +45,8 @@ def frame_count(duration: float) -> int:
     return moving_frames(duration) + HOLD
 
 
-def film_frames(shot: PlayedShot, size: tuple[int, int] = FILM_SIZE) -> Iterator[bytes]:
-    """Yield the frames of a shot's film, each (height, width, 4) bytes of red, green, blue, alpha.
+def film_frames(shot: PlayedShot, size: tuple[int, int] = FILM_SIZE) -> Iterator[memoryview]:
+    """Yield the frames of a shot's film, (height, width, 4) bytes of red, green, blue, alpha.
 
     Parameters
     ----------
@@ -55,7 +56,7 @@ def film_frames(shot: PlayedShot, size: tuple[int, int] = FILM_SIZE) -> Iterator
 
     Notes
     -----
-    A frame is to be used before the next one is asked for.
+    All frames share one buffer: use a frame before you ask for the next one.
     """
     width, height = size
     dpi = height / 7.2
@@ -65,7 +66,7 @@ def film_frames(shot: PlayedShot, size: tuple[int, int] = FILM_SIZE) -> Iterator
     caption = figure.text(0.02, 0.96, '', fontsize=20, va='center')
     for artist in (*picture.balls, caption):
         artist.set_animated(True)
-    canvas = figure.canvas
+    canvas: Any = figure.canvas  # matplotlib does not annotate the methods used here
     canvas.draw()
     empty_table = canvas.copy_from_bbox(figure.bbox)
     times = np.arange(moving_frames(shot.trajectory.duration)) / RATE

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM, seen between two steps of the work."""
+"""Ctrl-C and SIGTERM, noticed between two steps of the work."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 class Interrupts:
     """While this context is open, an interrupt waits for the next `check`.
 
-    Raised at once, as Python does it, KeyboardInterrupt may fall into a weak reference's callback,
-    where it is printed and forgotten; a picture being drawn runs thousands of those.
+    Python raises KeyboardInterrupt at once, possibly within the callback of a weak reference,
+    where it is printed and forgotten. Drawing a picture runs thousands of those.
     """
 
     def __init__(self) -> None:
         self._seen = False
 
     def check(self) -> None:
-        """Raise KeyboardInterrupt where one was asked for."""
+        """Raise KeyboardInterrupt if one has arrived."""
         if self._seen:
             raise KeyboardInterrupt
 
@@ -26,9 +26,9 @@ class Interrupts:
         self._before = [signal.signal(number, self._note) for number in SIGNALS]
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: object) -> None:
         for number, handler in zip(SIGNALS, self._before, strict=True):
             signal.signal(number, handler)
 
-    def _note(self, *_) -> None:
+    def _note(self, *_: object) -> None:
         self._seen = True

@@ -1,4 +1,4 @@
-"""Pieces of a page: tables, figures, numbers, and the templates that hold the text."""
+"""Parts of a page: tables, figures, numbers, and the templates that hold the text."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MINUS = '\N{MINUS SIGN}'
 
 
 class Cell(str):
-    """A cell of a table that is HTML already, and the class it has."""
+    """A cell of a table that is HTML already, with its CSS class."""
 
     css_class = ''
 
@@ -26,8 +26,8 @@ class Cell(str):
 
 
 def fill(template: str, **parts: object) -> str:
-    """Return a file of `templates` with its ``$names`` replaced."""
-    text = resources.files(__package__).joinpath('templates', template).read_text('utf-8')
+    """Return a file of `templates` with `parts` in place of its ``$names``."""
+    text = (resources.files(__package__) / 'templates' / template).read_text('utf-8')
     return Template(text).substitute(parts)
 
 
@@ -37,7 +37,7 @@ def table(
     caption: str,
     text_columns: Collection[int] = (),
 ) -> str:
-    """Return a table; its cells and titles are text, or HTML where they are `Cell`."""
+    """Return a table. Its cells and titles are text, except for those that are a `Cell`."""
 
     def line(tag: str, cells: Sequence[str]) -> str:
         return ''.join(_cell(tag, cell, i in text_columns) for i, cell in enumerate(cells))
@@ -53,7 +53,7 @@ def table(
 def figure(
     pictures: Mapping[str, bytes], path: str, caption: str, description: str, css_class: str = ''
 ) -> str:
-    """Return a picture as part of the page, with a link to the file of it.
+    """Return a picture inside the page, with a link to its file.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def figure(
     path : str
         Of the file, relative to the page.
     caption, description : str
-        What is below it; what it shows, for those who do not see it.
+        The text below the picture; a description for readers who cannot see it.
     css_class : str, optional
     """
     data = base64.b64encode(pictures[path]).decode()
@@ -74,14 +74,14 @@ def figure(
 
 
 def ball_name(ball: Ball) -> Cell:
-    """Return a ball's label behind a spot of its colour."""
+    """Return a spot of a ball's colour and its label."""
     color = ' '.join(f'{round(255 * level)}' for level in ball.color)
     swatch = f'<span class="swatch" style="background: rgb({color})"></span>'
     return Cell(swatch + escape(ball.label))
 
 
 def number(value: float, decimals: int) -> str:
-    """Return a number with so many decimals, without a minus sign where they are all zero."""
+    """Return a number with a fixed count of decimals, without a minus sign if all are zero."""
     text = f'{value:.{decimals}f}'
     if not text.strip('-0.'):
         text = text.lstrip('-')
@@ -89,12 +89,12 @@ def number(value: float, decimals: int) -> str:
 
 
 def pair(values: Iterable[float], decimals: int) -> str:
-    """Return x and y as ``x, y``."""
+    """Return x and y as ``x, y``, each as `number` writes it."""
     return ', '.join(number(value, decimals) for value in values)
 
 
 def short(value: float) -> str:
-    """Return a number in few digits, small ones as a power of ten; HTML."""
+    """Return a number with few digits as HTML; small and large ones get a power of ten."""
     if value == 0.0 or 1e-3 <= abs(value) < 1e4:
         return f'{value:g}'
     mantissa, exponent = f'{value:.5e}'.split('e')

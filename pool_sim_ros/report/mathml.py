@@ -1,6 +1,6 @@
 """Formulae in a page: LaTeX between \\( and \\) or \\[ and \\] becomes MathML.
 
-A displayed formula may be broken at each ``\\quad`` where the page is narrow.
+Where the page is narrow, a displayed formula may break at each ``\\quad``.
 """
 
 from __future__ import annotations
@@ -12,12 +12,21 @@ _TAG = re.compile(r'\\tag\{(.+?)\}')
 
 
 def with_formulae(html: str) -> str:
-    """Return the page with its formulae set; one with a ``\\tag`` gets its number beside it."""
+    """Return a page with its formulae as MathML, and the number of a ``\\tag`` beside its formula.
+
+    Parameters
+    ----------
+    html : str
+
+    Returns
+    -------
+    str
+    """
     from latex2mathml.converter import convert
 
-    def set_formula(match: re.Match) -> str:
+    def set_formula(match: re.Match[str]) -> str:
         if match['inline']:
-            return convert(match['inline'])
+            return str(convert(match['inline']))
         tag = _TAG.search(match['display'])
         number = f'<span class="number">({tag[1]})</span>' if tag else ''
         latex = _TAG.sub('', match['display'])

@@ -1,4 +1,4 @@
-"""The pictures and films that the report hands in, written into one folder."""
+"""Write the report's pictures and films into one folder."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ COMBINED_FILM = 'videos/combinedCollisions.mp4'
 
 
 def picture_count(shots: Sequence[PlayedShot]) -> int:
-    """Return how many pictures `write_pictures` writes."""
+    """Return the number of pictures that `write_pictures` writes."""
     return 3 + 2 * len(shots)
 
 
@@ -34,7 +34,7 @@ def write_pictures(
     Yields
     ------
     path : str
-        Of the file, relative to `folder`.
+        Path of the file, relative to `folder`.
     picture : bytes
         The same picture as SVG.
     """
@@ -69,7 +69,7 @@ def write_film(
         Path of the film, relative to `folder`.
     """
 
-    def frames() -> Iterator[bytes]:
+    def frames() -> Iterator[memoryview]:
         for frame in film_frames(shot, size):
             on_frame()
             yield frame
@@ -81,7 +81,19 @@ def write_film(
 
 
 def join_films(folder: Path, films: Iterable[str]) -> str:
-    """Write all films, paths relative to `folder`, one after the other; return its path there."""
+    """Join films in order into one film.
+
+    Parameters
+    ----------
+    folder : Path
+    films : iterable of str
+        Their paths, relative to `folder`.
+
+    Returns
+    -------
+    str
+        Path of the combined film, relative to `folder`.
+    """
     with whole_file(folder / COMBINED_FILM) as part:
         join((folder / film for film in films), part)
     return COMBINED_FILM

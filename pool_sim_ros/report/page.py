@@ -1,4 +1,4 @@
-"""The report as one page: what was given, the equations, the shots, and what they are worth."""
+"""The report as one page: the given data, the equations, the shots, and their accuracy."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from pool_sim_ros.report.played import PlayedShot, verdict
 from pool_sim_ros.simulator import Settings
 
 LAYOUT_FIGURE = 3
-"""Number of the figure that shows the layout; two for each shot follow, as in the report."""
+"""Number of the figure that shows the layout; two figures for each shot follow it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """All that a page is made of.
+    """Everything that the page shows.
 
     Attributes
     ----------
     settings : Settings
     shots : sequence of PlayedShot
     comparisons : sequence of Comparison
-        For each shot; none on another table than the report's.
+        One for each shot; empty on any table but the report's.
     pictures : mapping
         Path of a picture relative to the page -> the same picture as SVG.
     films : mapping
@@ -49,7 +49,7 @@ class Content:
 
 
 def make_page(content: Content) -> str:
-    """Return the page, with all pictures in it, as HTML."""
+    """Return the page as HTML, with all pictures inside."""
     sections = [
         _part_1(content),
         _part_2(content),
@@ -158,7 +158,7 @@ def _part_2(content: Content) -> str:
         f'{settings.report_integrator}.html',
         time_slice=short(settings.time_slice),
         angle_error=f'{math.degrees(error):.4f}',
-        way_error=f'{math.sin(error) * 2000:.4f}',
+        distance_error=f'{math.sin(error) * 2000:.4f}',
     )
     return fill(
         'part_2.html',

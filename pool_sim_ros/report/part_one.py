@@ -1,4 +1,4 @@
-"""Part 1 of the report on an example: two balls that meet at an offset."""
+"""An example of the report's Part 1: two balls that meet at an offset."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ VELOCITY = (1.2, 0.6)
 """Of ball a, m/s; ball b is at rest."""
 
 OFFSET = 0.4
-"""As a part of the two radii, to the left of a's motion."""
+"""As a part of the sum of the radii, to the left of a's motion."""
 
 
 @dataclass(frozen=True, eq=False)
 class Example:
-    """A collision to draw and to compute: ball a, moving, hits ball b, at rest.
+    """A collision to draw and to compute: the moving ball a hits ball b, which rests.
 
     Attributes
     ----------
     a, b : Ball
-        Only their masses and radii count.
+        Only their masses and radii are used.
     velocity : tuple of float
         Of a, m/s.
     offset : float
@@ -58,7 +58,16 @@ class Example:
         return self.velocity_angle - self.offset_angle
 
     def collide(self, ball_friction: str) -> TwoBallCollision:
-        """Return the outcome under a law of friction."""
+        """Return the outcome under a law of friction.
+
+        Parameters
+        ----------
+        ball_friction : {'report', 'coulomb'}
+
+        Returns
+        -------
+        TwoBallCollision
+        """
         return two_ball_collision(
             self.a.mass,
             self.b.mass,
@@ -74,7 +83,7 @@ class Example:
 
 
 def example(table: Table) -> Example:
-    """Return the example with the cue ball, the ball after it and the coefficients of a table."""
+    """Return the example with the first two balls and the coefficients of a table."""
     a, b = table.balls[0], table.balls[min(1, len(table.balls) - 1)]
     restitution = table.e_cue_ball if a.is_cue or b.is_cue else table.e_ball_ball
     offset = OFFSET * (a.radius + b.radius)

@@ -1,4 +1,4 @@
-"""The report's shots, played on a table, beside what the report printed of them."""
+"""The report's shots as played on a table, beside the results that the report printed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from pool_sim_ros.simulator import Settings
 
 
 class ShotError(ReportError):
-    """A shot that cannot be played on this table."""
+    """This table cannot play the shot."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,8 +36,8 @@ class PlayedShot:
         Of the cue ball, m/s.
     trajectory : Trajectory
     printed : dict or None
-        Where the report printed that the balls stop, label -> (x, y) in inches; None on another
-        table than the report's.
+        The final positions that the report printed, label -> (x, y) in inches; None on any table
+        but the report's.
     """
 
     number: int
@@ -58,7 +58,7 @@ class PlayedShot:
 
     @property
     def equal_to_print(self) -> int:
-        """How many balls stopped where the report printed, to its last digit."""
+        """The number of balls whose final positions equal the printed ones to the last digit."""
         places = self.final_positions
         return sum(
             (inches(places[label][0]), inches(places[label][1])) == xy
@@ -76,11 +76,15 @@ def play_shots(settings: Settings, numbers: Iterable[int]) -> Iterator[PlayedSho
     numbers : iterable of int
         1 to 4.
 
+    Yields
+    ------
+    PlayedShot
+
     Raises
     ------
     ShotError
-        Where shot 4 has nothing to aim at, the balls move for longer than
-        ``max_shot_duration``, or the law of friction gives them energy without end.
+        If shot 4 has nothing to aim at, if the balls move for longer than
+        ``max_shot_duration``, or if the law of friction gives them energy without end.
     """
     table = settings.table
     published = published_final_positions() if is_report_table(table) else {}
@@ -103,7 +107,7 @@ def play_shots(settings: Settings, numbers: Iterable[int]) -> Iterator[PlayedSho
 
 
 def verdict(settings: Settings, shots: Sequence[PlayedShot]) -> str:
-    """Return one sentence on how the end positions compare with the print."""
+    """Return one sentence that compares the end positions with the print."""
     printed = sum(len(shot.printed or {}) for shot in shots)
     if not printed:
         return 'The report printed nothing for this table, so there is nothing to compare with.'
@@ -114,19 +118,19 @@ def verdict(settings: Settings, shots: Sequence[PlayedShot]) -> str:
 
 
 def log_remark(settings: Settings) -> str | None:
-    """Return what the log says of a run that the report did not print; None for the report's."""
+    """Return the remark in the log of a run that the report did not print; None for its own."""
     differing = settings.deviations
     return f'Not the run that the report printed: {", ".join(differing)}' if differing else None
 
 
 def aim(table: Table) -> tuple[str, float] | None:
-    """Return the ball that shot 4 is aimed at and its direction in rad; None for no such ball."""
+    """Return the target of shot 4 and its direction in rad; None if there is no other ball."""
     if len(table.balls) < 2:
         return None
     return table.labels[nearest_ball(table)], attitude_to_nearest(table)
 
 
 def moved_balls(trajectory: Trajectory) -> np.ndarray:
-    """Return the indices of the balls that moved in a shot, (k,)."""
-    moving = trajectory.segments['speed'] > 0.0
-    return np.unique(trajectory.segments['ball'][moving])
+    """Return the indices of the balls that moved in a shot, (k,), in order."""
+    count = len(trajectory.final_positions)
+    return np.flatnonzero([len(trajectory.path(index)) > 1 for index in range(count)])

@@ -1,4 +1,4 @@
-"""Where the balls start and stop, as a table of comma-separated values."""
+"""Where the balls start and stop, as comma-separated values."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ COLUMNS = (
 
 
 def format_positions(shots: Iterable[PlayedShot]) -> str:
-    """Return a row for each ball of each shot: inches as the log has them, metres in full."""
+    """Return one row for each ball of each shot: inches as in the log, metres with all digits."""
     file = io.StringIO()
     writer = csv.writer(file, lineterminator='\n')
     writer.writerow(COLUMNS)

@@ -1,10 +1,11 @@
-"""The node's parameter file, read without ROS."""
+"""Read the node's parameter file without ROS."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from pool_sim_ros.report.errors import ReportError
 from pool_sim_ros.simulator import ParameterError, Settings, build_settings, values_from
@@ -24,7 +25,7 @@ def read_settings(path: Path) -> Settings:
     Raises
     ------
     TableFileError
-        Where the file cannot be read, or a node would refuse to start with it.
+        If the file cannot be read, or if a node would refuse to start with it.
     """
     import yaml
 
@@ -42,7 +43,7 @@ def read_settings(path: Path) -> Settings:
         raise TableFileError(f'{path}: {error}') from error
 
 
-def _parameters(content: object) -> Mapping:
+def _parameters(content: object) -> Mapping[str, object]:
     for key in ('/**', 'ros__parameters'):
         content = content.get(key) if isinstance(content, Mapping) else None
     if not isinstance(content, Mapping):
@@ -50,8 +51,8 @@ def _parameters(content: object) -> Mapping:
     return content
 
 
-def _flat(tree: Mapping, prefix: str = '') -> Iterator[tuple[str, object]]:
-    """Yield dotted names and their values."""
+def _flat(tree: Mapping[str, object], prefix: str = '') -> Iterator[tuple[str, object]]:
+    """Yield dotted names with their values."""
     for key, value in tree.items():
         if isinstance(value, Mapping):
             yield from _flat(value, f'{prefix}{key}.')
@@ -59,16 +60,14 @@ def _flat(tree: Mapping, prefix: str = '') -> Iterator[tuple[str, object]]:
             yield f'{prefix}{key}', value
 
 
-def _loader() -> type:
-    """Return a YAML loader for which 1e-6 is a number, as it is for ROS; by YAML 1.1 it is not."""
+def _loader() -> Any:
+    """Return a YAML loader that reads 1e-6 as a number, as ROS does and YAML 1.1 does not."""
     import yaml
 
-    class Loader(yaml.SafeLoader):
-        pass
-
+    loader: Any = type('Loader', (yaml.SafeLoader,), {})
     number = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$')
-    Loader.add_implicit_resolver('tag:yaml.org,2002:float', number, list('-+.0123456789'))
-    return Loader
+    loader.add_implicit_resolver('tag:yaml.org,2002:float', number, list('-+.0123456789'))
+    return loader
 
 
 def _in_one_line(error: Exception) -> str:

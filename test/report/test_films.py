@@ -1,6 +1,4 @@
-import errno
 import math
-import os
 from fractions import Fraction
 
 import pytest
@@ -8,8 +6,6 @@ from film_reader import ball_positions, color_at, describe, frame_times, frames
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from pool_sim_ros.report.encoder import EncoderError, encode
-from pool_sim_ros.report.files import OutputError
 from pool_sim_ros.report.films import moving_frames
 from pool_sim_ros.report.outputs import join_films, write_film
 
@@ -126,38 +122,3 @@ def test_films_go_into_a_folder_with_an_awkward_name(shots, tmp_path):
         for name in ('collision_3', 'combinedCollisions')
     )
     assert twice == 2 * once
-
-
-def test_ffmpeg_says_what_is_wrong_in_one_line(tmp_path):
-    with pytest.raises(EncoderError, match='^ffmpeg failed: .+$'):
-        encode([b'\0' * 64], (4, 4), 60, tmp_path / 'no' / 'such' / 'folder.mp4')
-
-
-def test_a_full_disk_is_told_when_ffmpeg_meets_it(shots, tmp_path, monkeypatch):
-    fake = tmp_path / 'ffmpeg'
-    fake.write_text(
-        '#!/bin/sh\necho "av_interleaved_write_frame(): No space left on device" >&2\nexit 1\n'
-    )
-    fake.chmod(0o755)
-    monkeypatch.setattr('pool_sim_ros.report.encoder.find_ffmpeg', lambda: str(fake))
-    with pytest.raises(OutputError) as caught:
-        write_film(tmp_path / 'out', shots[3], (128, 72))
-    assert str(caught.value).endswith(f'collision_3.mp4: {os.strerror(errno.ENOSPC)}')
-    assert list((tmp_path / 'out' / 'videos').iterdir()) == []
-
-
-def test_an_error_while_frames_are_drawn_leaves_no_film_and_no_ffmpeg(tmp_path):
-    def frames():
-        yield b'\0' * 64
-        raise KeyboardInterrupt
-
-    before = set(_children())
-    with pytest.raises(KeyboardInterrupt):
-        encode(frames(), (4, 4), 60, tmp_path / 'film.mp4')
-    assert set(_children()) <= before
-
-
-def _children():
-    path = f'/proc/self/task/{os.getpid()}/children'
-    with open(path) as file:
-        return file.read().split()
