@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 
 from pool_sim_ros.ros import interface
 
@@ -38,7 +39,9 @@ class ShotParser(argparse.ArgumentParser):
             help='give up after so many seconds without a sign of it (default: %(default)g)',
         )
 
-    def parse_args(self, args=None, namespace=None):
+    def parse_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: None = None
+    ) -> argparse.Namespace:
         """Parse; end the process where not exactly one of shot and velocity is given."""
         options = super().parse_args(args, namespace)
         if (options.shot is None) == (options.velocity is None):

@@ -6,15 +6,16 @@ import json
 import time
 import uuid
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import PoseArray
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.subscription import Subscription
 from std_msgs.msg import Float64MultiArray, String
 
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.ros.process import client_node
+from pool_sim_ros.ros.simulator_link import SimulatorLink
 from pool_sim_ros.simulator import Phase
 
 NAP = 0.1
@@ -49,16 +50,12 @@ class ShotClient:
         has_ended: Callable[[], bool] = lambda: False,
     ) -> None:
         self._has_ended = has_ended
-        self._node = client_node(context, 'client')
-        self._executor = SingleThreadedExecutor(context=context)
-        self._executor.add_node(self._node)
-        self._simulator = simulator
-        topic = interface.SHOT_REQUEST
-        self._requests = self._node.create_publisher(topic.type, topic.of(simulator), topic.qos)
-        self._responses = self._subscribe(interface.SHOT_RESPONSE, self._on_response)
-        self._subscribe(interface.STATE, self._on_state)
+        self._link = SimulatorLink(context, simulator, 'client')
+        self._requests = self._link.publisher(interface.SHOT_REQUEST)
+        self._responses = self._link.subscribe(interface.SHOT_RESPONSE, self._on_response)
+        self._link.subscribe(interface.STATE, self._on_state)
         self._id = ''
-        self._answers: list[dict] = []
+        self._answers: list[dict[str, Any]] = []
         self._idle_states = 0
         self._tick = -1
         self._paused = False
@@ -67,12 +64,11 @@ class ShotClient:
     @property
     def simulator(self) -> str:
         """Full name of the node that is talked to."""
-        return self._requests.topic_name.removesuffix(f'/{interface.SHOT_REQUEST.name}')
+        return self._link.simulator
 
     def close(self) -> None:
         """Leave ROS."""
-        self._executor.shutdown(0.0)
-        self._node.destroy_node()
+        self._link.close()
 
     def wait_for_simulator(self, timeout: float) -> None:
         """Wait until the simulator takes requests and its answers arrive.
@@ -104,7 +100,7 @@ class ShotClient:
     def table_json(self, timeout: float) -> str:
         """Return what `~/table` says; see `table_json.table_from_json`."""
         texts: list[str] = []
-        subscription = self._subscribe(interface.TABLE, lambda message: texts.append(message.data))
+        subscription = self._link.subscribe(interface.TABLE, lambda table: texts.append(table.data))
         try:
             self._wait(
                 lambda: bool(texts),
@@ -112,7 +108,7 @@ class ShotClient:
                 f'{self.simulator} announced no table within {timeout:g} s',
             )
         finally:
-            self._node.destroy_subscription(subscription)
+            self._link.unsubscribe(subscription)
         return texts[-1]
 
     def play(
@@ -121,9 +117,9 @@ class ShotClient:
         velocity: tuple[float, float] | None = None,
         *,
         timeout: float,
-        on_accepted: Callable[[dict], None] = lambda response: None,
+        on_accepted: Callable[[dict[str, Any]], None] = lambda response: None,
         on_progress: Callable[[str], None] | None = None,
-    ) -> dict:
+    ) -> dict[str, Any]:
         """Play one shot and wait until all balls rest.
 
         Parameters
@@ -182,9 +178,9 @@ class ShotClient:
                     )
         finally:
             for subscription in watching:
-                self._node.destroy_subscription(subscription)
+                self._link.unsubscribe(subscription)
 
-    def _watch(self, on_progress: Callable[[str], None]) -> list:
+    def _watch(self, on_progress: Callable[[str], None]) -> list[Subscription]:
         times: list[int] = []
         moving = 0
 
@@ -203,13 +199,9 @@ class ShotClient:
             on_progress(f'{(times[-1] - times[0]) * 1e-9:4.1f} s: {balls}')
 
         return [
-            self._subscribe(interface.BALL_VELOCITIES, on_velocities),
-            self._subscribe(interface.BALL_POSES, on_poses),
+            self._link.subscribe(interface.BALL_VELOCITIES, on_velocities),
+            self._link.subscribe(interface.BALL_POSES, on_poses),
         ]
-
-    def _subscribe(self, topic: interface.Topic, callback: Callable):
-        name = topic.of(self._simulator)
-        return self._node.create_subscription(topic.type, name, callback, topic.qos)
 
     def _wait(self, condition: Callable[[], bool], timeout: float, otherwise: str) -> None:
         end = time.monotonic() + timeout
@@ -221,7 +213,7 @@ class ShotClient:
     def _spin(self) -> None:
         if self._has_ended():
             raise SimulatorError('the simulator has ended')
-        self._executor.spin_once(NAP)
+        self._link.spin_once(NAP)
 
     def _on_response(self, message: String) -> None:
         self._last_sign = time.monotonic()

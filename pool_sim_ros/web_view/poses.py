@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rclpy.context import Context
 
-from pool_sim_ros.ros import client_node, interface
+from pool_sim_ros.ros import SimulatorLink, interface
 
 
 class LatestPoses:
@@ -22,11 +22,8 @@ class LatestPoses:
 
     def __init__(self, context: Context, simulator: str) -> None:
         # A node of its own, which no executor knows: that would take the messages away.
-        self._node = client_node(context, 'web_poses', enable_rosout=False)
-        topic = interface.BALL_POSES
-        self._subscription = self._node.create_subscription(
-            topic.type, topic.of(simulator), lambda _: None, topic.qos, raw=True
-        )
+        self._link = SimulatorLink(context, simulator, 'web_poses', enable_rosout=False)
+        self._subscription = self._link.subscribe(interface.BALL_POSES, lambda _: None, raw=True)
 
     def take(self) -> bytes | None:
         """Return the latest message, serialised; None where none has come since the last time."""
@@ -39,4 +36,4 @@ class LatestPoses:
 
     def close(self) -> None:
         """Leave ROS."""
-        self._node.destroy_node()
+        self._link.close()

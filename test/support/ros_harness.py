@@ -301,7 +301,7 @@ class Process:
             self._running.remove(self)
 
 
-def start_node(*args, module='ros.sim_node', **parameters):
+def start_node(*args, module='cli.sim_node', **parameters):
     """Start sim_node as a process of its own."""
     settings = [word for name, value in parameters.items() for word in ('-p', f'{name}:={value}')]
     return Process(module, *args, '--ros-args', *settings)
