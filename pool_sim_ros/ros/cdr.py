@@ -30,7 +30,7 @@ SHAPES_KEPT = 64
 
 
 class PosesWriter:
-    """Writes what `messages.to_poses` makes.
+    """Writes `~/ball_poses`: the balls' centres, each as high as its radius.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class PosesWriter:
 
 
 class RowsWriter:
-    """Writes what `messages.to_velocities` and `to_collisions` make.
+    """Writes rows of numbers: `~/ball_velocities` and `~/collisions`.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ class RowsWriter:
 
 
 def clock_bytes(stamps: Sequence[int]) -> list[bytes]:
-    """Return what `messages.to_clock` makes of sim times in ns."""
+    """Return the messages of `/clock` for sim times in ns."""
     copies = _copies(LITTLE_ENDIAN + bytes(STAMP), len(stamps))
     _put_stamps(copies, stamps)
     return _each(copies)

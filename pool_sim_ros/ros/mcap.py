@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Final
 
 from rclpy.qos import DurabilityPolicy
 from rosbags.interfaces import (
@@ -22,7 +23,7 @@ from rosbags.typesys import Stores, get_typestore
 from pool_sim_ros.ros import interface
 from pool_sim_ros.ros.recorder import Recorded
 
-_BAG_VERSION = 9  # of ROS 2 Jazzy
+_BAG_VERSION: Final = 9  # of ROS 2 Jazzy
 _FOREVER = QosTime(2147483647, 4294967295)
 
 

@@ -37,8 +37,11 @@ def declare_parameters(node: Node) -> Settings:
     overrides = {name: parameter.value for name, parameter in node._parameter_overrides.items()}
     values = values_from(overrides)
     settings = build_settings(values)
-    declarations = [(name, values[name], describe(spec)) for name, spec in PARAMETERS.items()]
-    node.declare_parameters('', declarations, ignore_override=True)
+    node.declare_parameters(
+        '',
+        [(name, values[name], describe(spec)) for name, spec in PARAMETERS.items()],
+        ignore_override=True,
+    )
     return settings
 
 
@@ -54,9 +57,8 @@ def describe(spec: ParameterSpec) -> ParameterDescriptor:
         bounds = FloatingPointRange(from_value=float(spec.least), to_value=float(spec.most))
         descriptor.floating_point_range = [bounds]
     elif isinstance(spec.default, int) and not isinstance(spec.default, bool):
-        descriptor.integer_range = [
-            IntegerRange(from_value=int(spec.least), to_value=int(spec.most), step=1)
-        ]
+        bounds = IntegerRange(from_value=int(spec.least), to_value=int(spec.most), step=1)
+        descriptor.integer_range = [bounds]
     return descriptor
 
 

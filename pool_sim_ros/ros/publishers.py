@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 
 from pool_sim_ros.ros import cdr, interface, messages
 from pool_sim_ros.ros.marker_publisher import MarkerPublisher
@@ -122,5 +123,5 @@ class Publishers:
         """Return whether ROS is up."""
         return self._node.context.ok()
 
-    def _create(self, topic: interface.Topic):
+    def _create(self, topic: interface.Topic) -> Publisher:
         return self._node.create_publisher(topic.type, topic.private, topic.qos)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
+from typing import Any, TypeGuard
 
 LONGEST = 1024
 """Characters of a command; the longest sensible one has about 100."""
@@ -29,13 +30,13 @@ class Command:
     ----------
     name : str
         aim (predict only), strike, shot, pause, speed, step or reset.
-    value : object
+    value : tuple, int, bool, float or None
         aim, strike: (x, y) in m/s; shot: a report shot's number; pause: bool; speed: the real time
         factor, 0 for as fast as possible; else None.
     """
 
     name: str
-    value: object = None
+    value: Any = None
 
 
 def parse_command(text: str) -> Command:
@@ -90,8 +91,8 @@ def _factor(value: object) -> float:
     raise ValueError('factor must be a finite number, 0 or more')
 
 
-def _is_finite(value: object) -> bool:
-    if type(value) not in (int, float):
+def _is_finite(value: object) -> TypeGuard[int | float]:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
     try:
         return math.isfinite(value)

@@ -33,9 +33,13 @@ class Page:
         self._frame = frame
         self._something.set()
 
-    async def next(self) -> str | bytes:
-        """Wait for, and take, what is to be sent next; texts go before the frame."""
+    async def next(self) -> str | bytes | None:
+        """Wait for, and take, what is to be sent next; texts go before the frame.
+
+        None where there is nothing but that the page is lost.
+        """
         await self._something.wait()
+        item: str | bytes | None
         if self._texts:
             item = self._texts.popleft()
         else:

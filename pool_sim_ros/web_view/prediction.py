@@ -35,9 +35,8 @@ def predict(
         Where the balls cannot lie there.
     """
     shot = simulate(table, velocity, positions=positions, until=LONGEST)
-    moved = np.flatnonzero(np.any(shot.final_positions != positions, axis=1))
-    moved = sorted({*moved.tolist(), *shot.segments['ball'][shot.segments['speed'] > 0.0].tolist()})
+    paths = [shot.path(i) for i in range(len(positions))]
     return {
-        'paths': [{'ball': i, 'points': shot.path(i).tolist()} for i in moved],
+        'paths': [{'ball': i, 'points': p.tolist()} for i, p in enumerate(paths) if len(p) > 1],
         'duration': shot.duration,
     }

@@ -154,5 +154,5 @@ async def _send(connection: web.WebSocketResponse, page: Page) -> None:
                 await connection.close(code=WSCloseCode.TRY_AGAIN_LATER)
             elif isinstance(item, str):
                 await connection.send_str(item)
-            else:
+            elif item is not None:
                 await connection.send_bytes(item)

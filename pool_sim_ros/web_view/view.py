@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import json
+from collections.abc import Coroutine
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 from rclpy.context import Context
@@ -43,12 +45,12 @@ class View:
         self.pages = Pages()
         self._table: Table | None = None
         self._compiled = False
-        self._state: dict[str, object] | None = None
+        self._state: dict[str, Any] | None = None
         self._frame: bytes | None = None
         self._printed = published_final_positions()
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
-        self._tasks: set[asyncio.Task] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
         self._bridge = Bridge(context, simulator, self)
         self._tell_whether_there()
         self._look = self._loop.call_soon(self._look_for_frame)
@@ -98,8 +100,10 @@ class View:
 
     async def _predict(self, velocity: tuple[float, float]) -> dict[str, object] | None:
         """Return the paths, or None where there is nothing to predict from."""
-        table, frame = self._table, self._frame
-        if table is None or frame is None or self._state['moving'] or not self._compiled:
+        table, frame, state = self._table, self._frame, self._state
+        if table is None or frame is None or not self._compiled:
+            return None
+        if state is None or state['moving']:
             return None
         positions = frame_positions(frame)
         if len(positions) != len(table.balls) or not any(velocity):
@@ -108,14 +112,14 @@ class View:
         paths = await asyncio.to_thread(predict, table, positions, velocity)
         return {'velocity': velocity, **paths}
 
-    def on_collisions(self, collisions: object) -> None:
+    def on_collisions(self, collisions: Any) -> None:
         """Show what touched; see `bridge.Listener`."""
         rows = messages.from_rows(collisions)
         if rows.shape[1] != len(COLLISION_COLUMNS) or not np.isfinite(rows).all():
             return
         self.pages.tell('collisions', rows.tolist())
 
-    def on_response(self, response: object) -> None:
+    def on_response(self, response: Any) -> None:
         """Show what came of a request, beside what the report printed."""
         content = json.loads(response.data)
         done = content['phase'] == Phase.DONE
@@ -124,7 +128,7 @@ class View:
         if done:
             self.pages.tell('result', {**content, 'printed': printed}, keep=True)
 
-    def on_state(self, state: object) -> None:
+    def on_state(self, state: Any) -> None:
         """Show what goes on."""
         came = self._state is None
         if came and not self._bridge.is_matched():
@@ -137,7 +141,7 @@ class View:
             self._silence.cancel()
         self._silence = self._loop.call_later(1.0, self._miss, 1)
 
-    def on_table(self, table: object) -> None:
+    def on_table(self, table: Any) -> None:
         """Show the table."""
         self._table = table_from_json(table.data)
         self.pages.tell('table', asdict(self._table), keep=True)
@@ -180,7 +184,7 @@ class View:
             '"ros2 run pool_sim_ros sim_node", under the same ROS_DOMAIN_ID.'
         )
 
-    def _run(self, coroutine) -> None:
+    def _run(self, coroutine: Coroutine[Any, Any, None]) -> None:
         task = self._loop.create_task(coroutine)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)

@@ -10,6 +10,7 @@ import pytest
 
 aiohttp = pytest.importorskip('aiohttp', reason="pip install 'pool_sim_ros[web]'")
 
+from plain_messages import to_collisions, to_poses  # noqa: E402
 from ros_harness import Process  # noqa: E402
 from site_harness import simulator, talk, web_view  # noqa: E402
 from yarl import URL  # noqa: E402
@@ -218,8 +219,8 @@ def test_topics_that_make_no_sense_are_left_out(played, ros):
         (interface.STATE, messages.to_string('{')),
         (interface.TABLE, messages.to_string('{"length": 1}')),
         (interface.SHOT_RESPONSE, messages.to_string('3')),
-        (interface.COLLISIONS, messages.to_collisions(np.full((1, 10), np.nan))),
-        (interface.BALL_POSES, messages.to_poses('table', 1, np.zeros((3, 2)), [0.05] * 3)),
+        (interface.COLLISIONS, to_collisions(np.full((1, 10), np.nan))),
+        (interface.BALL_POSES, to_poses('table', 1, np.zeros((3, 2)), [0.05] * 3)),
     ]
     publishers = [
         node.create_publisher(topic.type, topic.of('/shown'), topic.qos) for topic, _ in nonsense
