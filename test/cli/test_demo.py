@@ -2,7 +2,7 @@
 
 import io
 
-from ros_harness import Process
+from process_harness import Process
 
 from pool_sim_ros.cli import demo
 from pool_sim_ros.console.progress import ProgressLine

@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip('aiohttp', reason="aiohttp is missing: pip install 'pool_sim_ros[web]'")
 
-from ros_harness import Process  # noqa: E402
+from process_harness import Process  # noqa: E402
 from site_harness import talk  # noqa: E402
 
 
