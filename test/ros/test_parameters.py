@@ -2,9 +2,11 @@
 
 import pytest
 from rcl_interfaces.msg import ParameterType
+from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from pool_sim_ros.simulator import PARAMETERS, Change
+from pool_sim_ros.ros.parameters import declare_parameters, describe, on_change
+from pool_sim_ros.simulator import PARAMETERS, Change, ParameterError
 
 
 def test_every_parameter_is_declared_with_a_description_and_a_range(ros):
@@ -46,3 +48,58 @@ def test_a_parameter_that_may_not_change_or_not_to_that_is_refused(ros, name, va
     [result] = node.set_parameters([Parameter(name, value=value)])
     assert not result.successful and result.reason
     assert node.get_parameter(name).value == before
+
+
+def test_a_description_says_what_a_text_may_be():
+    spec = PARAMETERS['integrator']
+    descriptor = describe(spec)
+    assert descriptor.additional_constraints == ' or '.join(spec.choices)
+    assert descriptor.floating_point_range == descriptor.integer_range == []
+
+
+def test_values_that_make_no_table_declare_nothing(ros):
+    node = Node(
+        'strange',
+        context=ros.context,
+        parameter_overrides=[Parameter('table.lenght', value=2.0)],
+    )
+    try:
+        with pytest.raises(ParameterError, match=r'table\.lenght.*table\.length'):
+            declare_parameters(node)
+        assert not any(node.has_parameter(name) for name in PARAMETERS)
+    finally:
+        node.destroy_node()
+
+
+@pytest.fixture
+def changing(ros):
+    """A node with the parameters, and the settings that each change led to."""
+    node, applied = ros.node(), []
+    declare_parameters(node)
+    on_change(node, applied.append)
+    return node, applied
+
+
+def test_a_change_is_applied_once_with_all_settings(changing):
+    node, applied = changing
+    [result] = node.set_parameters([Parameter('max_cue_speed', value=5)])
+    assert result.successful
+    assert node.get_parameter('max_cue_speed').value == 5.0
+    assert [settings.max_cue_speed for settings in applied] == [5.0]
+
+
+def test_a_change_of_several_that_is_wrong_in_one_changes_none(changing):
+    node, applied = changing
+    result = node.set_parameters_atomically(
+        [Parameter('max_cue_speed', value=5.0), Parameter('real_time_factor', value=-1.0)]
+    )
+    assert not result.successful and 'real_time_factor' in result.reason
+    assert node.get_parameter('max_cue_speed').value == PARAMETERS['max_cue_speed'].default
+    assert applied == []
+
+
+def test_parameters_of_others_are_none_of_our_business(changing):
+    node, applied = changing
+    node.declare_parameter('lamp', 3)
+    [result] = node.set_parameters([Parameter('lamp', value=4)])
+    assert result.successful and applied == []
