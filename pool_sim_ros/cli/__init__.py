@@ -1,5 +1,5 @@
-"""The commands that need no room of their own, each a module: the node, its clients, demo and play.
+"""The commands that have no room of their own: each module is one.
 
-They import `ros`, `simulator`, `me212` and `console`, and nothing imports them. `web_view` and
-`report` have their command in their own room, as `command`; what is here starts those as processes.
+They import `ros`, `simulator`, `me212` and `console`, and no room imports them. `web_view` and
+`report` hold their own command; `play` starts the page as a process.
 """

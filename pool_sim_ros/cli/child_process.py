@@ -7,7 +7,7 @@ import sys
 from typing import IO
 
 PATIENCE = 5.0
-"""Seconds that a process is given to end."""
+"""Seconds to wait for a process to end."""
 
 
 def start_module(
@@ -27,7 +27,7 @@ def start_module(
 
 
 def end(process: subprocess.Popen[bytes]) -> None:
-    """Have a process end, and wait until it has."""
+    """End a process, and wait until it has ended."""
     process.terminate()
     try:
         process.wait(PATIENCE)

@@ -1,4 +1,4 @@
-"""`python -m pool_sim_ros.cli.demo`: the report's four shots over ROS topics, beside its print."""
+"""`python -m pool_sim_ros.cli.demo`: play the report's four shots and compare with its print."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from pool_sim_ros.ros import ShotClient, SimulatorError, init_ros
 from pool_sim_ros.simulator import table_from_json
 
 PATIENCE = 300.0
-"""Seconds without a sign of the node after which something is wrong: the slowest machine compiles
-the physics in less."""
+"""Seconds without a sign of the node after which to give up; the slowest machine compiles the
+physics in less."""
 
 NODE = f'pool_demo_{os.getpid()}'
 """A name of its own, out of the way of any other simulator."""
@@ -78,7 +78,7 @@ def _simulator(speed: float, log: IO[bytes]) -> Iterator[subprocess.Popen[bytes]
 
 
 def _wait_until_ready(process: subprocess.Popen[bytes], log: IO[bytes]) -> None:
-    # Not before it is ready: two that start together take seconds longer to find each other.
+    # A client waits until it is ready: two that start together take seconds to find each other.
     end = time.monotonic() + PATIENCE
     while 'ready' not in _text(log):
         if process.poll() is not None:

@@ -13,7 +13,7 @@ from pool_sim_ros.cli.child_process import end, start_module
 from pool_sim_ros.console import console_command
 
 NAP = 0.05
-"""Seconds between two looks at whether one of the two has ended."""
+"""Seconds between two checks of whether one of the two has ended."""
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -38,7 +38,7 @@ def main(args: list[str]) -> int:
     # A table of its own, out of the way of any other on this machine or network.
     domain = os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 101))
     reach = os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    # Not as an exception: a second one would come in the midst of ending the two.
+    # Not as an exception: a second one would interrupt the end of the two.
     signals: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, _: signals.append(number))

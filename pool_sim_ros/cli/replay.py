@@ -1,4 +1,4 @@
-"""The command `replay`: show a recorded session again, on the topics that it was recorded from."""
+"""The command `replay`: show a recorded session again, on the topics it was recorded from."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from pool_sim_ros.ros import Publishers, digests, interface, ros_command, shut_d
 from pool_sim_ros.simulator import LogError, Pacer, Settings, read_log, replay_frames
 
 NAP = 0.05
-"""Seconds after which to look up, at the latest, whether to go on."""
+"""Longest time between two checks of whether to go on, s."""
 
 DELIVERY_PATIENCE = 5.0
-"""Seconds for which the last frames are given to reach their readers."""
+"""Seconds to wait until the last frames have reached their readers."""
 
 
 def _speed(text: str) -> float:
@@ -59,7 +59,7 @@ def _parser() -> argparse.ArgumentParser:
 
 @ros_command('replay', _parser, LogError)
 def main(context: Context, options: argparse.Namespace) -> None:
-    """Replay a session, or print what it sends in short."""
+    """Replay a session, or print the digests of what it sends."""
     settings, commands = read_log(options.file)
     if options.digest:
         for topic, digest in digests(settings, replay_frames(settings, commands)).items():

@@ -12,7 +12,7 @@ from pool_sim_ros.ros import SimNode, interface, leave_at_once, ros_command, shu
 from pool_sim_ros.simulator import PARAMETERS, ParameterError
 
 SHUTDOWN_PATIENCE = 0.1
-"""Seconds that a shot which is being computed is given to end before the process does."""
+"""Seconds to wait for the end of a shot's computation before the process ends."""
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -36,7 +36,7 @@ def _parser() -> argparse.ArgumentParser:
 
 @ros_command('sim_node', _parser, ParameterError)
 def main(context: Context, _: argparse.Namespace) -> int:
-    """Run the node; return 1 where a thread of it failed."""
+    """Run the node; return 1 if one of its threads failed."""
     shut_down_on_signals(context)
     node = None
     try:

@@ -1,7 +1,7 @@
-"""What every command of this package has in common; it needs neither ROS nor the physics.
+"""What all commands have in common. It imports no other room, and neither ROS nor numpy.
 
-`console_command` makes the `main` of a command: all start, fail and stop in the same way.
-`ProgressLine` shows what goes on.
+`console_command` makes the `main` of a command, so that all start, fail and stop in the same way.
+`CommandError` is what such a command tells its user in one line. `ProgressLine` shows what goes on.
 """
 
 from pool_sim_ros.console.command import INTERRUPTED, CommandError, Main, console_command

@@ -1,4 +1,4 @@
-"""One way for every command to start, to fail and to stop."""
+"""How every command starts, fails and stops."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ INTERRUPTED = 130
 
 
 class CommandError(Exception):
-    """A command cannot do what it was asked to do; the message is for the user, in one line."""
+    """A command cannot do its work; the message is one line for the user."""
 
 
 class Main(Protocol):
-    """What an entry point names."""
+    """The function that an entry point names."""
 
     def __call__(self, args: list[str] | None = None) -> int:
         """Run with these arguments, by default the process's own; return the exit status."""
@@ -28,16 +28,16 @@ def console_command(
     interrupted: str | None = None,
     interrupt_status: int = INTERRUPTED,
 ) -> Callable[[Callable[[list[str]], int | None]], Main]:
-    """Return a decorator that makes a command's `main` of a function of its arguments.
+    """Return a decorator that makes the `main` of a command.
 
-    What the function returns is the exit status; None stands for 0.
+    The function takes the list of arguments and returns the exit status, where None stands for 0.
 
     Parameters
     ----------
     name : str
         What the user calls the command.
     *errors : exception types
-        What is told in one line, beside `CommandError`; the exit status is then 1.
+        Errors to tell in one line, like `CommandError`; the exit status is then 1.
     interrupted : str, optional
         Line to write after a KeyboardInterrupt.
     interrupt_status : int, optional

@@ -1,9 +1,8 @@
 """The simulator on ROS topics, and its clients.
 
-`interface` declares every topic and service. `SimNode` is the node, and `Publishers` is what it
-sends. `ShotClient` and `Recorder` are the other side; both talk through a `SimulatorLink`. Users
-import these; the rest is for the commands and the page, which import this room and are imported by
-nothing in it. `ros_command` starts and ends ROS in a process of our own.
+`interface` declares every topic and service. `SimNode` is the node. `ShotClient` plays shots on a
+node, `Recorder` keeps what it publishes, and `SimulatorError` says why that failed. Users import
+these. The other names are for `cli` and `web_view`, which import this room; it imports neither.
 """
 
 from typing import TYPE_CHECKING

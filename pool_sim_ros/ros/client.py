@@ -1,4 +1,4 @@
-"""A client of the node: sends requests over the topics and waits for what comes of them."""
+"""A client of the node: it sends requests over the topics and waits for their outcome."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ from pool_sim_ros.ros.simulator_link import SimulatorLink
 from pool_sim_ros.simulator import Phase
 
 NAP = 0.1
-"""Seconds at most between two looks at what was waited for."""
+"""Longest time between two checks of what it waits for, s."""
 
 IDLE_STATES = 6
-"""States in a row, each of a later tick, that show neither a shot nor a pause: the shot is lost. It
-begins one tick after it was computed, and that it is done may be heard late."""
+"""The shot is lost after so many states in a row, each of a later tick, that show neither a shot nor
+a pause. One is not enough: a shot begins one tick after it is computed, and the response that says
+it is done may arrive late."""
 
 
 class SimulatorError(Exception):
@@ -40,7 +41,7 @@ class ShotClient:
     simulator : str, optional
         Name of the node, relative to the client's namespace or absolute.
     has_ended : callable, optional
-        Returns whether the simulator is known to be gone, so that waiting is useless.
+        Returns whether the simulator has certainly ended, so that waiting is useless.
     """
 
     def __init__(
@@ -63,7 +64,7 @@ class ShotClient:
 
     @property
     def simulator(self) -> str:
-        """Full name of the node that is talked to."""
+        """Full name of the simulator."""
         return self._link.simulator
 
     def close(self) -> None:
@@ -81,7 +82,7 @@ class ShotClient:
         Raises
         ------
         SimulatorError
-            Where it does not come.
+            If no simulator answers in that time.
         """
 
         def matched() -> bool:
@@ -98,7 +99,18 @@ class ShotClient:
         )
 
     def table_json(self, timeout: float) -> str:
-        """Return what `~/table` says; see `table_json.table_from_json`."""
+        """Return the JSON of `~/table`, which `simulator.table_from_json` reads.
+
+        Parameters
+        ----------
+        timeout : float
+            s.
+
+        Raises
+        ------
+        SimulatorError
+            If no table comes in that time.
+        """
         texts: list[str] = []
         subscription = self._link.subscribe(interface.TABLE, lambda table: texts.append(table.data))
         try:
@@ -129,11 +141,11 @@ class ShotClient:
         velocity : tuple of float, optional
             Of the cue ball, m/s; instead of `shot`.
         timeout : float
-            Seconds without an answer, and then without a sign of life, after which to give up.
+            Time without an answer, and then without a sign of life, after which to give up, s.
         on_accepted : callable, optional
             Called with the response once the request is accepted.
         on_progress : callable, optional
-            Called with words on what goes on, for every frame.
+            Called for every frame, with words that say what goes on.
 
         Returns
         -------
@@ -143,7 +155,7 @@ class ShotClient:
         Raises
         ------
         SimulatorError
-            Where the shot is rejected or preempted, or the simulator falls silent.
+            If the shot is rejected or preempted, or if the simulator falls silent.
         """
         self._id = uuid.uuid4().hex
         self._answers.clear()

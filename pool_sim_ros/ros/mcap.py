@@ -1,4 +1,4 @@
-"""Recorded messages to an MCAP file."""
+"""Writing recorded messages to an MCAP file."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ _FOREVER = QosTime(2147483647, 4294967295)
 
 
 def write_bag(file: Path, messages: Iterable[Recorded]) -> None:
-    """Write messages to a single MCAP file, whole or not at all.
+    """Write messages to a single MCAP file: all of them, or none.
 
-    It holds the definitions of the message types, and how the topics were published, so that a
-    player publishes what was latched as latched.
+    The file holds the definitions of the message types and the QoS of the topics, so that a player
+    latches what was latched.
 
     Parameters
     ----------
     file : Path
-        One that is there is replaced.
+        An existing file is replaced.
     messages : iterable of Recorded
     """
     with tempfile.TemporaryDirectory(prefix='.record_', dir=file.parent) as folder:

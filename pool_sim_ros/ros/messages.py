@@ -1,4 +1,4 @@
-"""Messages to arrays and back, as pure functions."""
+"""Messages to arrays, and numbers and texts to messages: pure functions."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def to_json_string(fields: dict[str, object]) -> String:
 
 
 def from_poses(message: PoseArray) -> np.ndarray:
-    """Return the (n, 2) positions in m of a pose array; z and orientation are left out."""
+    """Return the (n, 2) positions in m of a pose array; this ignores z and orientation."""
     places = [(pose.position.x, pose.position.y) for pose in message.poses]
     return np.array(places, dtype=float).reshape(-1, 2)
 

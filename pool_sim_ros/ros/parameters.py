@@ -1,4 +1,4 @@
-"""The node's parameters in ROS: declared with descriptors, checked and applied when set."""
+"""The node's parameters in ROS: their declaration, and what happens when they change."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ def declare_parameters(node: Node) -> Settings:
     Raises
     ------
     ParameterError
-        Where they do not make a table; nothing is declared then.
+        If they do not make a table; then nothing is declared.
     """
-    # rclpy has no public access to overrides of undeclared parameters, where a misspelt name is.
+    # A misspelt name is only here: rclpy has no public access to overrides of what is undeclared.
     overrides = {name: parameter.value for name, parameter in node._parameter_overrides.items()}
     values = values_from(overrides)
     settings = build_settings(values)
@@ -63,7 +63,7 @@ def describe(spec: ParameterSpec) -> ParameterDescriptor:
 
 
 def on_change(node: Node, apply: Callable[[Settings], None]) -> None:
-    """Have every later change checked, and `apply` called with the settings once it is made."""
+    """Check every later change, and call `apply` with the settings after it."""
 
     def settings_with(parameters: list[Parameter]) -> Settings:
         values = {name: node.get_parameter(name).value for name in PARAMETERS}

@@ -1,4 +1,4 @@
-"""Bringing ROS up and down in a process of our own; what goes wrong is told in one line."""
+"""How ROS comes up and goes down in a process of our own."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ def ros_command(
 ) -> Callable[[Callable[[Context, argparse.Namespace], int | None]], Main]:
     """Return a decorator that makes the `main` of a command which takes part in ROS.
 
-    The function is called with a context and the parsed arguments. ROS is up before, and the
-    context is shut down after it.
+    ROS is up before the function runs, and goes down after it. The function takes the context and
+    the parsed arguments; it returns the exit status, where None stands for 0.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def ros_command(
     parser : callable
         Returns the parser of the arguments that are not for ROS.
     *errors, interrupted, interrupt_status
-        As of `console.console_command`; bad names of nodes and bad arguments for ROS are always
+        As in `console.console_command`. Bad names of nodes and bad arguments for ROS are always
         told in one line.
     """
 
@@ -80,9 +80,9 @@ def without_ros_args(args: list[str]) -> list[str]:
     Raises
     ------
     StartupError
-        Where those for ROS, or a parameter file that they name, cannot be read.
+        If ROS cannot read its arguments, or a parameter file that they name.
     """
-    # What rcl logs about them comes a second time with the exception.
+    # The exception repeats what rcl logs about them.
     set_logger_level('rcl', LoggingSeverity.FATAL)
     try:
         return remove_ros_args(['', *args])[1:]
@@ -93,12 +93,12 @@ def without_ros_args(args: list[str]) -> list[str]:
 
 
 def init_ros(args: list[str]) -> Context:
-    """Bring ROS up with these command line arguments; signals are left alone.
+    """Bring ROS up with these command line arguments, and leave signals alone.
 
     Raises
     ------
     StartupError
-        Where the arguments, or a parameter file that they name, cannot be read.
+        If ROS cannot read its arguments, or a parameter file that they name.
     """
     set_logger_level('rcl', LoggingSeverity.FATAL)
     context = Context()
@@ -112,14 +112,14 @@ def init_ros(args: list[str]) -> Context:
 
 
 def shut_down_on_signals(context: Context) -> None:
-    """From now on have SIGINT and SIGTERM shut the context down, and do nothing else.
+    """Make SIGINT and SIGTERM shut the context down, and do nothing else, from now on.
 
     Only the main thread may call this.
     """
-    # Not rclpy's own handlers: they wake the executor before they shut the context down, which at
-    # times leaves it waiting for ever. Nor would Python's handlers do by themselves: they run in
-    # the main thread once it has left the executor's wait.
-    # Plain descriptors, which nothing closes while the process ends: a second signal may come then.
+    # rclpy's own handlers wake the executor before they shut the context down, and at times it then
+    # waits for ever. Python's handlers alone run too late: in the main thread, after the executor's
+    # wait. The descriptors are plain, so that nothing closes them while the process ends: a second
+    # signal may come then.
     reader, writer = os.pipe()
     os.set_blocking(writer, False)
     for number in (signal.SIGINT, signal.SIGTERM):

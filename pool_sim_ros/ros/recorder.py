@@ -27,21 +27,21 @@ TOPICS = (
     interface.COLLISIONS,
     interface.BALL_POSES,
 )
-"""What is recorded.
+"""The topics that are recorded.
 
-The simulator learns of the subscriptions in this order, so that once it sends the last, which comes
-with every tick, it sends the others too.
+The simulator learns of the subscriptions in this order. The last comes with every tick: once it
+arrives, the others do too.
 """
 
 _AT_ONCE = (interface.TABLE, interface.STATE, interface.MARKERS, interface.BALL_POSES)
-"""What comes without a shot: latched, or with every tick."""
+"""The topics that come without a shot: latched, or with every tick."""
 
 _DEPTH = 5000
-"""Messages that may wait to be taken."""
+"""Depth of the queues, in messages."""
 
 
 class Recorded(NamedTuple):
-    """A message: when it came (wall time, ns), the topic, its full name and the CDR bytes."""
+    """A message: its time of arrival (wall time, ns), topic, full name of the topic, CDR bytes."""
 
     time: int
     topic: interface.Topic
@@ -50,7 +50,7 @@ class Recorded(NamedTuple):
 
 
 class Recorder:
-    """Listens from its making to `close`.
+    """Listens from its creation until `close`.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class Recorder:
 
     def __init__(self, context: Context, simulator: str) -> None:
         self.messages: list[Recorded] = []
-        """What has come, in order."""
+        """All messages so far, in the order of their arrival."""
         self._link = SimulatorLink(context, simulator, 'recorder')
         self._subscriptions = [self._listen(topic) for topic in TOPICS]
         self._link.start()
@@ -72,15 +72,26 @@ class Recorder:
         self._link.close()
 
     def wait_for_topics(self, timeout: float) -> None:
-        """Wait until all that is published arrives; raises SimulatorError after `timeout` s."""
+        """Wait until everything that is published arrives.
+
+        Parameters
+        ----------
+        timeout : float
+            s.
+
+        Raises
+        ------
+        SimulatorError
+            If a topic is missing after that time.
+        """
         self._wait(self._hears_all, timeout, 'did not publish all its topics')
 
     def wait_for_end(self, response: dict[str, Any], timeout: float) -> None:
-        """Wait until all of a shot has come.
+        """Wait until everything of a shot has arrived.
 
-        That is the last response to its request, after which no other comes, and two frames that
-        show its end: whatever was published with or before the first has been taken by then, for
-        the executor takes from each topic in turn.
+        That is the last response to its request, and two frames that show its end. The executor
+        takes from each topic in turn, so that with the second frame it has taken whatever was
+        published with the first, or before.
 
         Parameters
         ----------
@@ -92,7 +103,7 @@ class Recorder:
         Raises
         ------
         SimulatorError
-            Where something is missing after that time.
+            If something is missing after that time.
         """
         end = round(response['t_end'] * 1e9)
 

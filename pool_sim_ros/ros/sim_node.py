@@ -24,13 +24,14 @@ from pool_sim_ros.simulator import (
 )
 
 LOG_PERIOD = 0.1
-"""Seconds between two warnings in the log; the responses are never held back."""
+"""Seconds between two warnings in the log; this delays no response."""
 
 
 class SimNode(Node):
-    """Owns the table; spun by whoever made it, until `destroy_node`.
+    """The pool table as a node, until `destroy_node`.
 
-    The owner's executor runs the callbacks; frames and shots have threads of their own.
+    Its owner spins it: the owner's executor runs the callbacks. Frames and shots have threads of
+    their own.
 
     Parameters
     ----------
@@ -41,7 +42,7 @@ class SimNode(Node):
     Raises
     ------
     ParameterError
-        Where the parameters do not make a table.
+        If the parameters do not make a table.
     """
 
     def __init__(
@@ -70,11 +71,11 @@ class SimNode(Node):
 
     @property
     def failed(self) -> bool:
-        """Whether a thread failed; the context is shut down then."""
+        """Whether a thread failed, which also shuts the context down."""
         return self._output.failed
 
     def destroy_node(self) -> None:
-        """Stop the threads and leave ROS; a shot that is being computed is left behind."""
+        """Stop the threads and leave ROS; this does not wait for a shot that is being computed."""
         self.runner.stop(0.0)
         super().destroy_node()
 

@@ -23,8 +23,8 @@ from pool_sim_ros.ros.spin_thread import SpinThread
 class SimulatorLink:
     """A node of its own that talks to one simulator.
 
-    No other node has its name, and it offers no services: so many of them can be started, and a
-    security policy need not know their names.
+    No other node has its name, and it offers no services. So one can start many, and a security
+    policy need not know their names.
 
     Callbacks run in a thread of the link after `start`, or in the thread that calls `spin_once`.
 
@@ -35,7 +35,7 @@ class SimulatorLink:
     simulator : str
         Name of the simulator, relative to the namespace of this process or absolute.
     kind : str
-        What the node is; becomes a part of its name.
+        What the node is; a part of its name.
     enable_rosout : bool, optional
         Whether the node's log goes to `/rosout` too.
     """
@@ -85,9 +85,9 @@ class SimulatorLink:
         callback : callable
             Called with each message.
         depth : int, optional
-            Messages that may wait to be taken; by default as many as the topic has.
+            Depth of the queue, in messages; by default that of the topic.
         past : bool, optional
-            Whether a latched topic sends what was published before.
+            Whether a latched topic also delivers what was published before.
         raw : bool, optional
             Whether the messages come as serialised bytes.
         """

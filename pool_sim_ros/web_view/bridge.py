@@ -1,4 +1,4 @@
-"""The ROS side: a client of the simulator, spun by a thread of its own."""
+"""The ROS side: a client of the simulator, with a thread of its own."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ SET_PARAMETERS = interface.Service('set_parameters', SetParameters, 'set paramet
 """A service that every node has."""
 
 SERVICES = (interface.RESET, interface.STEP, interface.SET_PAUSED, SET_PARAMETERS)
-"""What the pages may have done."""
+"""The services that the pages use."""
 
 PATIENCE = 6.0
-"""Seconds that a service is given to answer; a step may wait 5 s for a shot that is computed."""
+"""Seconds to wait for a service; a step may itself wait 5 s for a shot that is being computed."""
 
 
 class NoAnswerError(Exception):
@@ -30,7 +30,7 @@ class NoAnswerError(Exception):
 
 
 class Listener(Protocol):
-    """Who is told what the simulator sends; always within the event loop."""
+    """Takes what the simulator sends, always within the event loop."""
 
     def on_collisions(self, message: Any) -> None:
         """Take a message of `~/collisions`."""
@@ -46,7 +46,7 @@ class Listener(Protocol):
 
 
 class Bridge:
-    """Talks to one simulator. Its methods belong to the event loop that it is made in.
+    """Talks to one simulator. Its methods belong to the event loop in which it was made.
 
     Parameters
     ----------
@@ -75,11 +75,11 @@ class Bridge:
 
     @property
     def simulator(self) -> str:
-        """Full name of the node that is talked to."""
+        """Full name of the simulator."""
         return self._link.simulator
 
     def is_matched(self) -> bool:
-        """Return whether the simulator hears what is asked of it from now on."""
+        """Return whether the simulator hears requests from now on."""
         return self._requests.get_subscription_count() > 0 and all(
             client.service_is_ready() for client in self._clients.values()
         )
@@ -90,11 +90,11 @@ class Bridge:
         self._poses.close()
 
     def latest_poses(self) -> bytes | None:
-        """Return the latest message of `~/ball_poses`, serialised; None where none is new."""
+        """Return the latest message of `~/ball_poses`, serialised; None if none is new."""
         return self._poses.take()
 
     def left_out(self, error: Exception) -> None:
-        """Tell in the log that something the simulator sent made no sense."""
+        """Write to the log that something from the simulator made no sense."""
         line = f'not understood, and left out: {error}'
         self._link.logger.warn(line, throttle_duration_sec=1.0)
 
@@ -104,12 +104,12 @@ class Bridge:
         self._requests.publish(messages.to_json_string(request))
 
     async def call(self, service: interface.Service, **fields: object) -> tuple[bool, str]:
-        """Call a service; return whether it did what was asked, and its words.
+        """Call a service; return whether it succeeded, and its words.
 
         Raises
         ------
         NoAnswerError
-            Where nobody answers.
+            If nobody answers.
         """
         answer = await self._answer(service, **fields)
         return answer.success, answer.message
@@ -154,6 +154,6 @@ class Bridge:
             self.left_out(error)
 
     def _in_loop(self, callback: Callable[..., object], *args: object) -> None:
-        # A loop that has ended meanwhile wants to know nothing more.
+        # The loop may have ended meanwhile.
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(callback, *args)

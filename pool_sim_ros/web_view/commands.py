@@ -1,4 +1,4 @@
-"""What a page may say to the server: parsing and checking, pure."""
+"""What a page may say to the server: pure parsing and checks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TypeGuard
 
 LONGEST = 1024
-"""Characters of a command; the longest sensible one has about 100."""
+"""Most characters of a command; the longest sensible one has about 100."""
 
 _FIELDS = {
     'aim': 'velocity',
@@ -19,12 +19,12 @@ _FIELDS = {
     'step': None,
     'reset': None,
 }
-"""What can be asked for -> the one field that goes with it."""
+"""Name of a command -> the one field that goes with it."""
 
 
 @dataclass(frozen=True)
 class Command:
-    """One wish of a page.
+    """One command of a page.
 
     Attributes
     ----------
@@ -42,12 +42,12 @@ class Command:
 def parse_command(text: str) -> Command:
     """Read a command: JSON like ``{"do": "strike", "velocity": [-4.0, 0.0]}``.
 
-    Ranges that the simulator knows (shots, speeds) are left to it.
+    The simulator itself checks the ranges that it knows (shots, speeds).
 
     Raises
     ------
     ValueError
-        Says in words what is wrong.
+        If it is no command; the message says what is wrong.
     """
     if len(text) > LONGEST:
         raise ValueError(f'a command has at most {LONGEST} characters, not {len(text)}')

@@ -1,4 +1,4 @@
-"""Between simulator and pages: what the pages are shown, and what they may ask for."""
+"""Between simulator and pages: what the pages show, and what they may ask for."""
 
 from __future__ import annotations
 
@@ -22,16 +22,17 @@ from pool_sim_ros.web_view.pages import Page, Pages, message
 from pool_sim_ros.web_view.prediction import predict
 
 SILENCE = 4
-"""Looks, one a second, that find no `~/state`, which comes every second: the simulator is gone. Not
-simply a time: after a pause of this process itself, what came meanwhile has yet to be read."""
+"""The simulator is gone after so many looks, one a second, without a `~/state`, which comes every
+second. A time alone would not do: after a pause of this process, it still has to read what came
+meanwhile."""
 
 FRAME_PERIOD = 1 / 100
-"""Seconds between two looks for a new frame: at real speed one comes every 1/60 s. Of a simulator
-that runs as fast as it can the pages see the latest."""
+"""Seconds between two looks for a new frame; at real speed one comes every 1/60 s. If the simulator
+runs faster, the pages see the latest."""
 
 
 class View:
-    """Shows one simulator to the pages, and does what they ask for.
+    """Shows one simulator to the pages, and does what they ask.
 
     Parameters
     ----------
@@ -57,7 +58,7 @@ class View:
 
     @property
     def simulator(self) -> str:
-        """Full name of the node that is shown."""
+        """Full name of the simulator."""
         return self._bridge.simulator
 
     def close(self) -> None:
@@ -70,7 +71,7 @@ class View:
         self._bridge.close()
 
     async def obey(self, page: Page, text: str) -> None:
-        """Do what a page asks for; tell it what is wrong with that."""
+        """Do what a page asks; tell the page if this fails, and why."""
         try:
             await self._obey(page, parse_command(text))
         except (ValueError, NoAnswerError) as error:
@@ -99,7 +100,7 @@ class View:
         return await self._bridge.call(service)
 
     async def _predict(self, velocity: tuple[float, float]) -> dict[str, object] | None:
-        """Return the paths, or None where there is nothing to predict from."""
+        """Return the paths, or None if there is nothing to predict from."""
         table, frame, state = self._table, self._frame, self._state
         if table is None or frame is None or not self._compiled:
             return None
@@ -113,14 +114,14 @@ class View:
         return {'velocity': velocity, **paths}
 
     def on_collisions(self, collisions: Any) -> None:
-        """Show what touched; see `bridge.Listener`."""
+        """Show the collisions; see `bridge.Listener`."""
         rows = messages.from_rows(collisions)
         if rows.shape[1] != len(COLLISION_COLUMNS) or not np.isfinite(rows).all():
             return
         self.pages.tell('collisions', rows.tolist())
 
     def on_response(self, response: Any) -> None:
-        """Show what came of a request, beside what the report printed."""
+        """Show the response to a request, beside what the report printed."""
         content = json.loads(response.data)
         done = content['phase'] == Phase.DONE
         printed = self._printed.get(content['shot']) if done and content['as_printed'] else None

@@ -3,8 +3,9 @@
 import threading
 
 from std_msgs.msg import String
-from waiting import wait_until
+from waiting import PATIENCE, wait_until
 
+from pool_sim_ros.ros import spin_thread
 from pool_sim_ros.ros.spin_thread import SpinThread
 
 
@@ -33,10 +34,20 @@ def test_callbacks_run_in_a_thread_of_their_own_until_it_is_closed(ros):
     assert heard[1] == ('second', threading.current_thread())
 
 
+def test_closing_does_not_wait_for_a_message(ros, monkeypatch):
+    monkeypatch.setattr(spin_thread, 'LONGEST_WAIT', 10 * PATIENCE)
+    thread = SpinThread(ros.node('idle'))
+    spinner = thread._thread
+    closing = threading.Thread(target=thread.close)
+    closing.start()
+    closing.join(PATIENCE)
+    assert not closing.is_alive() and not spinner.is_alive()
+
+
 def test_it_ends_by_itself_where_ros_goes_down(ros):
     thread = SpinThread(ros.node('doomed'))
     spinner = thread._thread
     ros.context.try_shutdown()
-    spinner.join(60.0)
+    spinner.join(PATIENCE)
     assert not spinner.is_alive()
     thread.close()
