@@ -5,13 +5,11 @@ numba takes half a second to import. A client that only formats lengths need not
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from importlib import import_module
 
 
-def lazy_exports(
-    package: str, modules: dict[str, str], submodules: Collection[str] = ()
-) -> Callable[[str], object]:
+def lazy_exports(package: str, modules: dict[str, str]) -> Callable[[str], object]:
     """Return a `__getattr__` for a package.
 
     Parameters
@@ -20,13 +18,9 @@ def lazy_exports(
         Its `__name__`.
     modules : dict of str
         Exported name -> module below the package that defines it.
-    submodules : collection of str, optional
-        Modules below the package that are exported as they are.
     """
 
     def get(name: str) -> object:
-        if name in submodules:
-            return import_module(f'{package}.{name}')
         if name not in modules:
             raise AttributeError(f'module {package!r} has no attribute {name!r}')
         return getattr(import_module(f'{package}.{modules[name]}'), name)

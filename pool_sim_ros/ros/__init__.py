@@ -8,9 +8,9 @@ these. The other names are for `cli` and `web_view`, which import this room; it 
 from typing import TYPE_CHECKING
 
 from pool_sim_ros.lazy import lazy_exports
+from pool_sim_ros.ros import interface, messages
 
 if TYPE_CHECKING:
-    from pool_sim_ros.ros import interface, messages
     from pool_sim_ros.ros.client import ShotClient, SimulatorError
     from pool_sim_ros.ros.digest import digests
     from pool_sim_ros.ros.mcap import write_bag
@@ -41,7 +41,6 @@ else:
             'shut_down_on_signals': 'process',
             'write_bag': 'mcap',
         },
-        submodules=('interface', 'messages'),
     )
 
 __all__ = [

@@ -16,15 +16,15 @@ from std_msgs.msg import Float64MultiArray, String
 
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.simulator_link import SimulatorLink
-from pool_sim_ros.simulator import Phase
+from pool_sim_ros.simulator import Phase, stamp_to_seconds
 
 NAP = 0.1
 """Longest time between two checks of what it waits for, s."""
 
 IDLE_STATES = 6
-"""The shot is lost after so many states in a row, each of a later tick, that show neither a shot nor
-a pause. One is not enough: a shot begins one tick after it is computed, and the response that says
-it is done may arrive late."""
+"""A shot is lost after so many states in a row, each of a later tick, without a shot and without a
+pause. One is not enough: a shot begins one tick after it is computed, and the response that says it
+is done may arrive late."""
 
 
 class SimulatorError(Exception):
@@ -208,7 +208,7 @@ class ShotClient:
             times.append(messages.from_time(message.header.stamp))
             del times[1:-1]
             balls = '1 ball moves' if moving == 1 else f'{moving} balls move'
-            on_progress(f'{(times[-1] - times[0]) * 1e-9:4.1f} s: {balls}')
+            on_progress(f'{stamp_to_seconds(times[-1] - times[0]):4.1f} s: {balls}')
 
         return [
             self._link.subscribe(interface.BALL_VELOCITIES, on_velocities),

@@ -16,6 +16,7 @@ from std_msgs.msg import String
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.client import SimulatorError
 from pool_sim_ros.ros.simulator_link import SimulatorLink
+from pool_sim_ros.simulator import seconds_to_stamp
 
 TOPICS = (
     interface.TABLE,
@@ -105,7 +106,7 @@ class Recorder:
         SimulatorError
             If something is missing after that time.
         """
-        end = round(response['t_end'] * 1e9)
+        end = seconds_to_stamp(response['t_end'])
 
         def came() -> bool:
             frames = [m.data for m in self.messages if m.topic is interface.BALL_POSES]

@@ -1,5 +1,8 @@
 """The node: a pool table on ROS topics."""
 
+# Some methods of rclpy's Node have no types.
+# mypy: allow-untyped-calls
+
 from __future__ import annotations
 
 from collections.abc import Callable

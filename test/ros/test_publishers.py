@@ -10,8 +10,7 @@ from ros_harness import Observer
 from shot_frames import shot_frames
 
 from pool_sim_ros.ros import Publishers, interface, messages
-from pool_sim_ros.simulator import build_settings, default_values, table_from_json
-from pool_sim_ros.simulator.health import Report
+from pool_sim_ros.simulator import Diagnosis, build_settings, default_values, table_from_json
 
 SETTINGS = build_settings(default_values())
 TABLE = SETTINGS.table
@@ -101,7 +100,7 @@ def test_diagnostics_name_the_node(ros):
     )
     ros.spin_until(reader.get_publisher_count, 'the match')
     ros.spin_until(lambda: sender.output._diagnostics.get_subscription_count(), 'the match')
-    sender.output.diagnostics(1_500_000_000, Report('', {'speed': '1'}))
+    sender.output.diagnostics(1_500_000_000, Diagnosis('', {'speed': '1'}))
     ros.spin_until(lambda: heard, 'the diagnostics')
     assert heard[0].status[0].name == f'/{sender.name}: simulation'
 
