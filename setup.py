@@ -11,7 +11,7 @@ SUMMARY = 'A ROS 2 simulation node for a pool table, and the exact billiards eng
 VERSION = re.search("__version__ = '(.*)'", Path(NAME, '__init__.py').read_text())[1]
 
 COMMANDS = [
-    'sim_node = pool_sim_ros.ros.sim_node:main',
+    'sim_node = pool_sim_ros.cli.sim_node:main',
     'shot = pool_sim_ros.cli.shot:main',
     'replay = pool_sim_ros.cli.replay:main',
     'report = pool_sim_ros.report.command:main',

@@ -10,7 +10,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from ros_harness import node_process
+from process_harness import node_process
 
 from pool_sim_ros.ros import interface
 

@@ -1,1 +1,5 @@
-"""The commands: each module is one of them."""
+"""The commands that have no room of their own: each module is one.
+
+They import `ros`, `simulator`, `me212` and `console`, and no room imports them. `web_view` and
+`report` hold their own command; `play` starts the page as a process.
+"""

@@ -1,4 +1,4 @@
-"""`python -m pool_sim_ros.cli.demo`: the report's four shots over ROS topics, beside its print."""
+"""`python -m pool_sim_ros.cli.demo`: play the report's four shots and compare with its print."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import IO
 
-from pool_sim_ros.console import ProgressLine
+from pool_sim_ros.cli.child_process import end, start_module
+from pool_sim_ros.console import ProgressLine, console_command
 from pool_sim_ros.me212 import (
     attitude_to_nearest,
     format_aim,
@@ -22,18 +23,35 @@ from pool_sim_ros.me212 import (
     nearest_ball,
     published_final_positions,
 )
-from pool_sim_ros.ros import INTERRUPTED, ShotClient, SimulatorError, init_ros
+from pool_sim_ros.ros import ShotClient, SimulatorError, init_ros
 from pool_sim_ros.simulator import table_from_json
 
 PATIENCE = 300.0
-"""Seconds without a sign of the node after which something is wrong: the slowest machine compiles
-the physics in less."""
+"""Seconds without a sign of the node after which to give up; the slowest machine compiles the
+physics in less."""
 
 NODE = f'pool_demo_{os.getpid()}'
 """A name of its own, out of the way of any other simulator."""
 
 
-def main(args: list[str] | None = None) -> int:
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog='python -m pool_sim_ros.cli.demo',
+        description="Start the node, play the report's four shots over its topics, and compare "
+        'where the balls stop with what the report printed.',
+    )
+    parser.add_argument(
+        '--speed',
+        type=float,
+        default=1.0,
+        metavar='FACTOR',
+        help='how many times faster than real time; 0 = as fast as possible (default: %(default)g)',
+    )
+    return parser
+
+
+@console_command('demo', SimulatorError, interrupted='\ndemo: interrupted')
+def main(args: list[str]) -> int:
     """Play the four shots; return 0 where all positions equal the printed ones."""
     options = _parser().parse_args(args)
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
@@ -44,33 +62,23 @@ def main(args: list[str] | None = None) -> int:
             with _simulator(options.speed, log) as process:
                 return _play_all(process, options.speed)
         except SimulatorError as error:
-            print(f'demo: {error}\n{_text(log)}', file=sys.stderr)
-            return 1
-        except KeyboardInterrupt:
-            print('\ndemo: interrupted', file=sys.stderr)
-            return INTERRUPTED
+            raise SimulatorError(f'{error}\n{_text(log)}') from error
 
 
 @contextmanager
-def _simulator(speed: float, log: IO[bytes]) -> Iterator[subprocess.Popen]:
-    command = [sys.executable, '-m', 'pool_sim_ros.ros.sim_node']
+def _simulator(speed: float, log: IO[bytes]) -> Iterator[subprocess.Popen[bytes]]:
     arguments = ['--ros-args', '-r', f'__node:={NODE}', '-p', f'real_time_factor:={speed}']
-    process = subprocess.Popen([*command, *arguments], stdout=log, stderr=log)
+    process = start_module('cli.sim_node', *arguments, output=log)
     try:
         print('Starting the node; on the first run it compiles the physics, for about 20 s ...')
         _wait_until_ready(process, log)
         yield process
     finally:
-        process.terminate()
-        try:
-            process.wait(5.0)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+        end(process)
 
 
-def _wait_until_ready(process: subprocess.Popen, log: IO[bytes]) -> None:
-    # Not before it is ready: two that start together take seconds longer to find each other.
+def _wait_until_ready(process: subprocess.Popen[bytes], log: IO[bytes]) -> None:
+    # A client waits until it is ready: two that start together take seconds to find each other.
     end = time.monotonic() + PATIENCE
     while 'ready' not in _text(log):
         if process.poll() is not None:
@@ -85,7 +93,7 @@ def _text(log: IO[bytes]) -> str:
     return os.pread(log.fileno(), 1 << 20, 0).decode(errors='replace')
 
 
-def _play_all(process: subprocess.Popen, speed: float) -> int:
+def _play_all(process: subprocess.Popen[bytes], speed: float) -> int:
     context = init_ros([])
     client = ShotClient(context, NODE, has_ended=lambda: process.poll() is not None)
     line = ProgressLine(sys.stdout)
@@ -127,22 +135,6 @@ def _play(
         print(f'{format_position(label, position)}   {mark}')
     print(flush=True)
     return equal
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog='python -m pool_sim_ros.cli.demo',
-        description="Start the node, play the report's four shots over its topics, and compare "
-        'where the balls stop with what the report printed.',
-    )
-    parser.add_argument(
-        '--speed',
-        type=float,
-        default=1.0,
-        metavar='FACTOR',
-        help='how many times faster than real time; 0 = as fast as possible (default: %(default)g)',
-    )
-    return parser
 
 
 if __name__ == '__main__':

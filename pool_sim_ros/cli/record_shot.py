@@ -6,57 +6,58 @@ import argparse
 import sys
 from pathlib import Path
 
+from rclpy.context import Context
+
 from pool_sim_ros.cli.shot_arguments import ShotParser
-from pool_sim_ros.console import ProgressLine
-from pool_sim_ros.ros import (
-    INTERRUPTED,
-    NAME_ERRORS,
-    Recorder,
-    ShotClient,
+from pool_sim_ros.console import CommandError, ProgressLine
+from pool_sim_ros.ros import Recorder, ShotClient, SimulatorError, ros_command
+
+
+def _parser() -> ShotParser:
+    parser = ShotParser(
+        'record_shot',
+        'Play one shot on a running simulator and write its topics to an MCAP file, which Foxglove '
+        'and "ros2 bag play" open.',
+    )
+    parser.add_argument(
+        '--out',
+        type=Path,
+        default=Path('shot.mcap'),
+        metavar='FILE.mcap',
+        help='file to write; one that is there is replaced (default: %(default)s)',
+    )
+    return parser
+
+
+@ros_command(
+    'record_shot',
+    _parser,
     SimulatorError,
-    StartupError,
-    init_ros,
-    without_ros_args,
+    interrupted='record_shot: interrupted; nothing was written',
 )
-
-
-def main(args: list[str] | None = None) -> int:
-    """Record one shot; return the exit status."""
-    args = sys.argv[1:] if args is None else args
+def main(context: Context, options: argparse.Namespace) -> None:
+    """Record one shot."""
+    _check(options.out)
     try:
-        options = _parser().parse_args(without_ros_args(args))
-        _check(options.out)
-        context = init_ros(args)
-        try:
-            _record(context, options)
-        finally:
-            context.try_shutdown()
-    except (StartupError, SimulatorError, *NAME_ERRORS) as error:
-        print(f'record_shot: {error}', file=sys.stderr)
-        return 1
+        _record(context, options)
     except OSError as error:
-        print(f'record_shot: {options.out} cannot be written: {error.strerror}', file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print('record_shot: interrupted; nothing was written', file=sys.stderr)
-        return INTERRUPTED
-    return 0
+        raise CommandError(f'{options.out} cannot be written: {error.strerror}') from error
 
 
 def _check(out: Path) -> None:
     try:
         import rosbags  # noqa: F401
     except ModuleNotFoundError:
-        raise StartupError(
+        raise CommandError(
             "recording needs rosbags: pip install 'pool_sim_ros[record]', or pip install rosbags"
         ) from None
     if out.suffix != '.mcap':
-        raise StartupError(f'--out: {out} must end in .mcap')
+        raise CommandError(f'--out: {out} must end in .mcap')
     if not out.parent.is_dir():
-        raise StartupError(f'--out: there is no folder {out.parent}')
+        raise CommandError(f'--out: there is no folder {out.parent}')
 
 
-def _record(context, options: argparse.Namespace) -> None:
+def _record(context: Context, options: argparse.Namespace) -> None:
     from pool_sim_ros.ros import write_bag
 
     line = ProgressLine(sys.stdout)
@@ -81,22 +82,6 @@ def _record(context, options: argparse.Namespace) -> None:
     write_bag(options.out, recorder.messages)
     seconds = response['t_end'] - response['t_start']
     print(f'{options.out}: {len(recorder.messages)} messages, a shot of {seconds:.2f} s')
-
-
-def _parser() -> ShotParser:
-    parser = ShotParser(
-        'record_shot',
-        'Play one shot on a running simulator and write its topics to an MCAP file, which Foxglove '
-        'and "ros2 bag play" open.',
-    )
-    parser.add_argument(
-        '--out',
-        type=Path,
-        default=Path('shot.mcap'),
-        metavar='FILE.mcap',
-        help='file to write; one that is there is replaced (default: %(default)s)',
-    )
-    return parser
 
 
 if __name__ == '__main__':

@@ -1,4 +1,4 @@
-"""The command `replay`: show a recorded session again, on the topics that it was recorded from."""
+"""The command `replay`: show a recorded session again, on the topics it was recorded from."""
 
 from __future__ import annotations
 
@@ -6,78 +6,20 @@ import argparse
 import math
 import sys
 import time
+from typing import Any
 
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.node import Node
 
-from pool_sim_ros.ros import (
-    INTERRUPTED,
-    NAME_ERRORS,
-    Publishers,
-    StartupError,
-    digests,
-    init_ros,
-    interface,
-    shut_down_on_signals,
-    without_ros_args,
-)
+from pool_sim_ros.ros import Publishers, digests, interface, ros_command, shut_down_on_signals
 from pool_sim_ros.simulator import LogError, Pacer, Settings, read_log, replay_frames
 
 NAP = 0.05
-"""Seconds after which to look up, at the latest, whether to go on."""
+"""Longest time between two checks of whether to go on, s."""
 
 DELIVERY_PATIENCE = 5.0
-"""Seconds for which the last frames are given to reach their readers."""
-
-
-def main(args: list[str] | None = None) -> int:
-    """Replay a session; return the exit status."""
-    args = sys.argv[1:] if args is None else args
-    try:
-        options = _parser().parse_args(without_ros_args(args))
-        settings, commands = read_log(options.file)
-        if options.digest:
-            for topic, digest in digests(settings, replay_frames(settings, commands)).items():
-                print(f'{digest}  {topic}')
-            return 0
-        context = init_ros(args)
-        shut_down_on_signals(context)
-        try:
-            _play(context, settings, commands, options)
-        finally:
-            context.try_shutdown()
-    except (StartupError, LogError, *NAME_ERRORS) as error:
-        print(f'replay: {error}', file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:  # before the signals are ours
-        return INTERRUPTED
-    return 0
-
-
-def _play(
-    context: Context, settings: Settings, commands: list[dict], options: argparse.Namespace
-) -> None:
-    node = Node(interface.NODE_NAME, context=context, start_parameter_services=False)
-    try:
-        output = Publishers(node, settings)
-        output.table(settings)
-        while options.wait and context.ok() and not output.is_read():
-            time.sleep(NAP)
-        pacer = Pacer(settings.publish_rate, options.speed)
-        for frame in replay_frames(settings, commands):
-            while context.ok() and (wait := pacer.wait(moving=True)) > 0.0:
-                time.sleep(min(wait, NAP))
-            if not context.ok():
-                return
-            output.frame(frame)
-            pacer.shown()
-        output.wait_for_delivery(Duration(seconds=DELIVERY_PATIENCE))
-    except Exception:
-        if context.ok():  # else a signal overtook whatever was going on
-            raise
-    finally:
-        node.destroy_node()
+"""Seconds to wait until the last frames have reached their readers."""
 
 
 def _speed(text: str) -> float:
@@ -113,6 +55,46 @@ def _parser() -> argparse.ArgumentParser:
         help='show nothing, but print the SHA-256 of what would be sent on each topic',
     )
     return parser
+
+
+@ros_command('replay', _parser, LogError)
+def main(context: Context, options: argparse.Namespace) -> None:
+    """Replay a session, or print the digests of what it sends."""
+    settings, commands = read_log(options.file)
+    if options.digest:
+        for topic, digest in digests(settings, replay_frames(settings, commands)).items():
+            print(f'{digest}  {topic}')
+        return
+    shut_down_on_signals(context)
+    _play(context, settings, commands, options)
+
+
+def _play(
+    context: Context,
+    settings: Settings,
+    commands: list[dict[str, Any]],
+    options: argparse.Namespace,
+) -> None:
+    node = Node(interface.NODE_NAME, context=context, start_parameter_services=False)
+    try:
+        output = Publishers(node, settings)
+        output.table(settings)
+        while options.wait and context.ok() and not output.is_read():
+            time.sleep(NAP)
+        pacer = Pacer(settings.publish_rate, options.speed)
+        for frame in replay_frames(settings, commands):
+            while context.ok() and (wait := pacer.wait(moving=True)) > 0.0:
+                time.sleep(min(wait, NAP))
+            if not context.ok():
+                return
+            output.frame(frame)
+            pacer.shown()
+        output.wait_for_delivery(Duration(seconds=DELIVERY_PATIENCE))
+    except Exception:
+        if context.ok():  # else a signal overtook whatever was going on
+            raise
+    finally:
+        node.destroy_node()
 
 
 if __name__ == '__main__':

@@ -4,45 +4,30 @@ from __future__ import annotations
 
 import argparse
 import sys
+from typing import Any
+
+from rclpy.context import Context
 
 from pool_sim_ros.cli.shot_arguments import ShotParser
 from pool_sim_ros.console import ProgressLine
 from pool_sim_ros.me212 import format_shot
-from pool_sim_ros.ros import (
-    INTERRUPTED,
-    NAME_ERRORS,
-    ShotClient,
-    SimulatorError,
-    StartupError,
-    init_ros,
-    without_ros_args,
-)
+from pool_sim_ros.ros import ShotClient, SimulatorError, ros_command
 
 
-def main(args: list[str] | None = None) -> int:
-    """Play one shot; return the exit status."""
-    args = sys.argv[1:] if args is None else args
+def _parser() -> ShotParser:
+    return ShotParser(
+        'shot', 'Play one shot on a running simulator and print where the balls stop.'
+    )
+
+
+@ros_command('shot', _parser, SimulatorError, interrupted='shot: interrupted; the shot goes on')
+def main(context: Context, options: argparse.Namespace) -> None:
+    """Play one shot."""
+    client = ShotClient(context, options.node)
     try:
-        parser = ShotParser(
-            'shot', 'Play one shot on a running simulator and print where the balls stop.'
-        )
-        options = parser.parse_args(without_ros_args(args))
-        context = init_ros(args)
-        try:
-            client = ShotClient(context, options.node)
-            try:
-                _play(client, options)
-            finally:
-                client.close()
-        finally:
-            context.try_shutdown()
-    except (StartupError, SimulatorError, *NAME_ERRORS) as error:
-        print(f'shot: {error}', file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print('shot: interrupted; the shot goes on', file=sys.stderr)
-        return INTERRUPTED
-    return 0
+        _play(client, options)
+    finally:
+        client.close()
 
 
 def _play(client: ShotClient, options: argparse.Namespace) -> None:
@@ -61,7 +46,7 @@ def _play(client: ShotClient, options: argparse.Namespace) -> None:
     print(format_shot(response['shot'], response['velocity'], response['final_positions'].items()))
 
 
-def _print_accepted(response: dict) -> None:
+def _print_accepted(response: dict[str, Any]) -> None:
     x, y = response['velocity']
     print(
         f'{response["phase"]}: cue velocity [{x:.3f}, {y:.3f}] m/s, '

@@ -1,14 +1,15 @@
-"""The arguments that commands which play a shot have in common."""
+"""The common arguments of the commands that play a shot."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 
 from pool_sim_ros.ros import interface
 
 
 class ShotParser(argparse.ArgumentParser):
-    """Reads which shot is to be played, on which simulator; more arguments may be added."""
+    """Reads which shot to play on which simulator; a command may add arguments."""
 
     def __init__(self, prog: str, description: str) -> None:
         super().__init__(
@@ -38,8 +39,10 @@ class ShotParser(argparse.ArgumentParser):
             help='give up after so many seconds without a sign of it (default: %(default)g)',
         )
 
-    def parse_args(self, args=None, namespace=None):
-        """Parse; end the process where not exactly one of shot and velocity is given."""
+    def parse_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: None = None
+    ) -> argparse.Namespace:
+        """Parse; end the process unless exactly one of shot and velocity is given."""
         options = super().parse_args(args, namespace)
         if (options.shot is None) == (options.velocity is None):
             self.error('give either the number of a shot or --velocity VX VY')

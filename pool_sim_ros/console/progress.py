@@ -1,4 +1,4 @@
-"""One line on a terminal that is written over and over."""
+"""One line on a terminal, written over and over."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import time
 from typing import TextIO
 
 PERIOD = 0.1
-"""Seconds between two versions of the line: as often as one can read it."""
+"""Seconds between two versions of the line; nobody reads faster."""
 
 
 class ProgressLine:
-    """A line that shows what is going on; nothing where the stream is not a terminal.
+    """A line that shows what goes on; nothing if the stream is not a terminal.
 
     Parameters
     ----------

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from pool_sim_ros.console import console_command
 from pool_sim_ros.me212 import SHOT_NUMBERS
 from pool_sim_ros.report.errors import ReportError
 from pool_sim_ros.report.interrupts import Interrupts
@@ -20,29 +20,23 @@ if TYPE_CHECKING:
     from pool_sim_ros.report.played import PlayedShot
     from pool_sim_ros.simulator import Settings
 
-INTERRUPTED = 130
-"""Exit status after Ctrl-C, as shells have it."""
-
 INTEGRATORS = ('time_slice', 'event')
 """Those of `pool_sim_ros.physics`, which loads in a second: too long for --help."""
 
 T = TypeVar('T')
 
 
-def main(args: list[str] | None = None) -> int:
-    """Make the report; return the exit status."""
+@console_command(
+    'report',
+    ReportError,
+    interrupted='\nreport: interrupted; the files that are there are whole',
+)
+def main(args: list[str]) -> None:
+    """Make the report."""
     options = _parser().parse_args(args)
-    try:
-        with Interrupts() as interrupts:
-            _check_packages(options)
-            _make(options, interrupts)
-    except ReportError as error:
-        print(f'report: {error}', file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print('\nreport: interrupted; the files that are there are whole', file=sys.stderr)
-        return INTERRUPTED
-    return 0
+    with Interrupts() as interrupts:
+        _check_packages(options)
+        _make(options, interrupts)
 
 
 def _make(options: argparse.Namespace, interrupts: Interrupts) -> None:

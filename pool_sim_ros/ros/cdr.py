@@ -1,8 +1,8 @@
-"""Messages as the bytes that ROS sends (CDR), with the numbers written in place by numpy.
+"""Messages as the bytes that ROS sends (CDR); numpy writes the numbers in place.
 
-Making message objects anew costs some 30 times as much as publishing such bytes. And the bytes
-that ROS itself makes are not the same each time: between the fields it leaves gaps unwritten. Here
-they are zero, so that two runs with the same inputs send the same bytes.
+To make message objects costs some 30 times as much as to publish such bytes. Also, ROS itself does
+not make the same bytes each time: it leaves the gaps between the fields unwritten. Here they are
+zero, so that two runs with the same inputs send the same bytes.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ import numpy as np
 from pool_sim_ros.simulator import SECOND_NS
 
 LITTLE_ENDIAN = b'\0\1\0\0'
-"""What precedes every message; numbers are aligned to what follows it."""
+"""Bytes before every message; numbers are aligned to what follows them."""
 
 DOUBLE = 8
 STAMP = 8
-"""Bytes; a stamp is what a message begins with."""
+"""Bytes; each message with a stamp begins with it."""
 
 POSE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-"""x, y, z and the quaternion that turns nothing."""
+"""x, y, z, and the quaternion of no rotation."""
 
 SHAPES_KEPT = 64
-"""Numbers of rows whose layout is kept: more collisions than that in one frame are rare."""
+"""Numbers of rows whose layout is kept; a frame with more collisions than that is rare."""
 
 
 class PosesWriter:
-    """Writes what `messages.to_poses` makes.
+    """Writes `~/ball_poses`: the balls' centres, each as high as its radius.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class PosesWriter:
 
 
 class RowsWriter:
-    """Writes what `messages.to_velocities` and `to_collisions` make.
+    """Writes rows of numbers: `~/ball_velocities` and `~/collisions`.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ class RowsWriter:
 
 
 def clock_bytes(stamps: Sequence[int]) -> list[bytes]:
-    """Return what `messages.to_clock` makes of sim times in ns."""
+    """Return the messages of `/clock` for sim times in ns."""
     copies = _copies(LITTLE_ENDIAN + bytes(STAMP), len(stamps))
     _put_stamps(copies, stamps)
     return _each(copies)
@@ -113,7 +113,7 @@ def _add_string(message: bytearray, text: str) -> None:
 
 
 def _add_doubles(message: bytearray, length: int, numbers: np.ndarray) -> None:
-    """Add a sequence of this length, which consists of doubles and is the message's last field."""
+    """Add the last field of a message: a sequence of this length, made of doubles."""
     _add_uint32(message, length)
     _align(message, DOUBLE)
     message += numbers.astype('<f8').tobytes()
@@ -124,7 +124,7 @@ def _align(message: bytearray, size: int) -> None:
 
 
 def _copies(message: bytes, count: int) -> np.ndarray:
-    """Return an array of bytes, (count, size), each row of it the message."""
+    """Return an array of bytes, (count, size); each row is the message."""
     copies = np.empty((count, len(message)), np.uint8)
     copies[...] = np.frombuffer(message, np.uint8)
     return copies

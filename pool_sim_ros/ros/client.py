@@ -1,4 +1,4 @@
-"""A client of the node: sends requests over the topics and waits for what comes of them."""
+"""A client of the node: it sends requests over the topics and waits for their outcome."""
 
 from __future__ import annotations
 
@@ -6,23 +6,25 @@ import json
 import time
 import uuid
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import PoseArray
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.subscription import Subscription
 from std_msgs.msg import Float64MultiArray, String
 
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.ros.process import client_node
-from pool_sim_ros.simulator import Phase
+from pool_sim_ros.ros.simulator_link import SimulatorLink
+from pool_sim_ros.simulator import Phase, stamp_to_seconds
 
 NAP = 0.1
-"""Seconds at most between two looks at what was waited for."""
+"""Longest time between two checks of what it waits for, s."""
 
 IDLE_STATES = 6
-"""States in a row, each of a later tick, that show neither a shot nor a pause: the shot is lost. It
-begins one tick after it was computed, and that it is done may be heard late."""
+"""A shot is lost after so many states in a row, each of a later tick, without a shot and without a
+pause. One is not enough: a shot begins one tick after it is computed, and the response that says it
+is done may arrive late."""
 
 
 class SimulatorError(Exception):
@@ -39,7 +41,7 @@ class ShotClient:
     simulator : str, optional
         Name of the node, relative to the client's namespace or absolute.
     has_ended : callable, optional
-        Returns whether the simulator is known to be gone, so that waiting is useless.
+        Returns whether the simulator has certainly ended, so that waiting is useless.
     """
 
     def __init__(
@@ -49,16 +51,12 @@ class ShotClient:
         has_ended: Callable[[], bool] = lambda: False,
     ) -> None:
         self._has_ended = has_ended
-        self._node = client_node(context, 'client')
-        self._executor = SingleThreadedExecutor(context=context)
-        self._executor.add_node(self._node)
-        self._simulator = simulator
-        topic = interface.SHOT_REQUEST
-        self._requests = self._node.create_publisher(topic.type, topic.of(simulator), topic.qos)
-        self._responses = self._subscribe(interface.SHOT_RESPONSE, self._on_response)
-        self._subscribe(interface.STATE, self._on_state)
+        self._link = SimulatorLink(context, simulator, 'client')
+        self._requests = self._link.publisher(interface.SHOT_REQUEST)
+        self._responses = self._link.subscribe(interface.SHOT_RESPONSE, self._on_response)
+        self._link.subscribe(interface.STATE, self._on_state)
         self._id = ''
-        self._answers: list[dict] = []
+        self._answers: list[dict[str, Any]] = []
         self._idle_states = 0
         self._tick = -1
         self._paused = False
@@ -66,13 +64,12 @@ class ShotClient:
 
     @property
     def simulator(self) -> str:
-        """Full name of the node that is talked to."""
-        return self._requests.topic_name.removesuffix(f'/{interface.SHOT_REQUEST.name}')
+        """Full name of the simulator."""
+        return self._link.simulator
 
     def close(self) -> None:
         """Leave ROS."""
-        self._executor.shutdown(0.0)
-        self._node.destroy_node()
+        self._link.close()
 
     def wait_for_simulator(self, timeout: float) -> None:
         """Wait until the simulator takes requests and its answers arrive.
@@ -85,7 +82,7 @@ class ShotClient:
         Raises
         ------
         SimulatorError
-            Where it does not come.
+            If no simulator answers in that time.
         """
 
         def matched() -> bool:
@@ -102,9 +99,20 @@ class ShotClient:
         )
 
     def table_json(self, timeout: float) -> str:
-        """Return what `~/table` says; see `table_json.table_from_json`."""
+        """Return the JSON of `~/table`, which `simulator.table_from_json` reads.
+
+        Parameters
+        ----------
+        timeout : float
+            s.
+
+        Raises
+        ------
+        SimulatorError
+            If no table comes in that time.
+        """
         texts: list[str] = []
-        subscription = self._subscribe(interface.TABLE, lambda message: texts.append(message.data))
+        subscription = self._link.subscribe(interface.TABLE, lambda table: texts.append(table.data))
         try:
             self._wait(
                 lambda: bool(texts),
@@ -112,7 +120,7 @@ class ShotClient:
                 f'{self.simulator} announced no table within {timeout:g} s',
             )
         finally:
-            self._node.destroy_subscription(subscription)
+            self._link.unsubscribe(subscription)
         return texts[-1]
 
     def play(
@@ -121,9 +129,9 @@ class ShotClient:
         velocity: tuple[float, float] | None = None,
         *,
         timeout: float,
-        on_accepted: Callable[[dict], None] = lambda response: None,
+        on_accepted: Callable[[dict[str, Any]], None] = lambda response: None,
         on_progress: Callable[[str], None] | None = None,
-    ) -> dict:
+    ) -> dict[str, Any]:
         """Play one shot and wait until all balls rest.
 
         Parameters
@@ -133,11 +141,11 @@ class ShotClient:
         velocity : tuple of float, optional
             Of the cue ball, m/s; instead of `shot`.
         timeout : float
-            Seconds without an answer, and then without a sign of life, after which to give up.
+            Time without an answer, and then without a sign of life, after which to give up, s.
         on_accepted : callable, optional
             Called with the response once the request is accepted.
         on_progress : callable, optional
-            Called with words on what goes on, for every frame.
+            Called for every frame, with words that say what goes on.
 
         Returns
         -------
@@ -147,7 +155,7 @@ class ShotClient:
         Raises
         ------
         SimulatorError
-            Where the shot is rejected or preempted, or the simulator falls silent.
+            If the shot is rejected or preempted, or if the simulator falls silent.
         """
         self._id = uuid.uuid4().hex
         self._answers.clear()
@@ -182,9 +190,9 @@ class ShotClient:
                     )
         finally:
             for subscription in watching:
-                self._node.destroy_subscription(subscription)
+                self._link.unsubscribe(subscription)
 
-    def _watch(self, on_progress: Callable[[str], None]) -> list:
+    def _watch(self, on_progress: Callable[[str], None]) -> list[Subscription]:
         times: list[int] = []
         moving = 0
 
@@ -200,16 +208,12 @@ class ShotClient:
             times.append(messages.from_time(message.header.stamp))
             del times[1:-1]
             balls = '1 ball moves' if moving == 1 else f'{moving} balls move'
-            on_progress(f'{(times[-1] - times[0]) * 1e-9:4.1f} s: {balls}')
+            on_progress(f'{stamp_to_seconds(times[-1] - times[0]):4.1f} s: {balls}')
 
         return [
-            self._subscribe(interface.BALL_VELOCITIES, on_velocities),
-            self._subscribe(interface.BALL_POSES, on_poses),
+            self._link.subscribe(interface.BALL_VELOCITIES, on_velocities),
+            self._link.subscribe(interface.BALL_POSES, on_poses),
         ]
-
-    def _subscribe(self, topic: interface.Topic, callback: Callable):
-        name = topic.of(self._simulator)
-        return self._node.create_subscription(topic.type, name, callback, topic.qos)
 
     def _wait(self, condition: Callable[[], bool], timeout: float, otherwise: str) -> None:
         end = time.monotonic() + timeout
@@ -221,7 +225,7 @@ class ShotClient:
     def _spin(self) -> None:
         if self._has_ended():
             raise SimulatorError('the simulator has ended')
-        self._executor.spin_once(NAP)
+        self._link.spin_once(NAP)
 
     def _on_response(self, message: String) -> None:
         self._last_sign = time.monotonic()

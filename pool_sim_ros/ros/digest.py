@@ -1,4 +1,4 @@
-"""What a session sends on each topic, as one number."""
+"""One number for all that a session sends on a topic."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pool_sim_ros.simulator import COLLISION_COLUMNS, VELOCITY_COLUMNS, Frame, S
 
 
 def digests(settings: Settings, frames: Iterator[Frame]) -> dict[str, str]:
-    """Return, by topic, the SHA-256 of all that is sent on it while these frames are shown."""
+    """Return the SHA-256 of all messages that show these frames, for each topic."""
     poses = PosesWriter(settings.frame_id, settings.table.radii.tolist())
     velocities = RowsWriter('ball', VELOCITY_COLUMNS)
     collisions = RowsWriter('collision', COLLISION_COLUMNS)

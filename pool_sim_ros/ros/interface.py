@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseArray, Twist
@@ -34,7 +35,7 @@ class Endpoint:
     """
 
     name: str
-    type: type
+    type: Any
     doc: str
 
     @property

@@ -1,4 +1,4 @@
-"""When which markers are sent: the table once, the rest where it changes and somebody looks."""
+"""When markers are sent: the table once, the rest when it changes and somebody looks."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from pool_sim_ros.ros.markers import Markers
 from pool_sim_ros.simulator import Frame
 
 LATCHED_CHANGES = 5
-"""Messages about what moves that a late viewer is sent. With the table they must fit into the ten
-that a viewer usually keeps: else they push the table out, since what it keeps is counted for all
-publishers together."""
+"""Messages about moving things that a late viewer receives. Together with the table they must fit
+into the ten that a viewer usually keeps: it counts the messages of all publishers of a topic, and
+would otherwise drop the table."""
 
 LOOK_PERIOD = 0.1
-"""Seconds between two looks for viewers: each costs as much as sending a message."""
+"""Seconds between two looks for viewers; a look costs as much as a message."""
 
 
 class MarkerPublisher:
@@ -36,7 +36,7 @@ class MarkerPublisher:
         topic = interface.MARKERS
         self._markers = Markers(table, frame_id)
         moving = QoSProfile(depth=LATCHED_CHANGES, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        # Two publishers of one topic: what moves must not push the table out of what is latched.
+        # Two publishers of one topic, so that moving things do not push the latched table out.
         self._once = node.create_publisher(topic.type, topic.private, topic.qos)
         self._often = node.create_publisher(topic.type, topic.private, moving)
         self._viewers = 0
@@ -49,8 +49,8 @@ class MarkerPublisher:
     def frame(self, frame: Frame) -> None:
         """Send what a tick has changed.
 
-        While nobody looks, a rolling ball costs nothing; who then comes sees no trail of what he
-        has missed.
+        While nobody looks, a rolling ball costs nothing. A viewer that comes then sees no trail of
+        what it missed.
         """
         came = self._look_for_viewers()
         if frame.moving and not self._viewers:
@@ -70,13 +70,13 @@ class MarkerPublisher:
             return
         if changes is not None and self._viewers:
             self._often.publish(changes)
-        # All of it, and after the changes: who comes later is sent only what came last.
+        # All of it, and after the changes: a late viewer receives only the last messages.
         resting = changes is not None and not frame.moving
         if resting or frame.started or came:
             self._often.publish(self._markers.everything(frame.positions))
 
     def _look_for_viewers(self) -> bool:
-        """Return whether somebody has come, as far as it is time to look."""
+        """Return whether somebody has come since the last look; False if it is too early."""
         now = time.monotonic()
         if now < self._next_look:
             return False

@@ -1,4 +1,4 @@
-"""The table as markers for RViz and Foxglove; builds messages, sends nothing."""
+"""The table as markers for RViz and Foxglove: this builds the messages and sends none."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ TRAIL_HEIGHT = 0.003
 """m."""
 
 FLASH_TIME = 150_000_000
-"""ns of the viewer's time that a flash lasts."""
+"""Duration of a flash in the viewer's time, ns."""
 
 FLASHES = 32
-"""Flashes that can be seen at once; a further one takes the place of the oldest."""
+"""Most flashes at a time; a further one replaces the oldest."""
 
 _COLUMN = {name: index for index, name in enumerate(COLLISION_COLUMNS)}
 
 
 class Markers:
-    """Tells what to draw, and afterwards what of it has changed.
+    """Tells what to draw, and afterwards what has changed.
 
-    A trail is the way of a ball since the strike: it ends at the ball and has its corners exactly
+    A trail is the path of a ball since the strike. It ends at the ball, and its corners are exactly
     where the ball touched something.
 
     Parameters
@@ -43,7 +43,7 @@ class Markers:
     table : Table
         Size, balls and colours.
     frame_id : str
-        What the markers' coordinates refer to.
+        Frame of the markers' coordinates.
     """
 
     def __init__(self, table: Table, frame_id: str) -> None:
@@ -87,7 +87,7 @@ class Markers:
     def changes(
         self, positions: np.ndarray, collisions: np.ndarray, *, started: bool, rolling: bool
     ) -> MarkerArray | None:
-        """Return what a frame changes; None where it changes nothing.
+        """Return what a frame changes; None if it changes nothing.
 
         Parameters
         ----------
@@ -96,9 +96,9 @@ class Markers:
         collisions : ndarray of shape (k, 10)
             Since the last frame, in the columns `COLLISION_COLUMNS`.
         started : bool
-            Whether this is the first frame of a shot; it shows the balls where they start.
+            Whether this is the first frame of a shot, which shows the balls at their start.
         rolling : bool
-            Whether the balls roll, or have rolled to where they rest now. Balls that are put
+            Whether the balls roll, or have just rolled to their rest. Balls that were placed
             elsewhere leave no trails.
         """
         moved = np.flatnonzero(np.any(positions != self._positions, axis=1)).tolist()

@@ -1,4 +1,4 @@
-"""Recorded messages to an MCAP file."""
+"""Writing recorded messages to an MCAP file."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Final
 
 from rclpy.qos import DurabilityPolicy
 from rosbags.interfaces import (
@@ -22,20 +23,20 @@ from rosbags.typesys import Stores, get_typestore
 from pool_sim_ros.ros import interface
 from pool_sim_ros.ros.recorder import Recorded
 
-_BAG_VERSION = 9  # of ROS 2 Jazzy
+_BAG_VERSION: Final = 9  # of ROS 2 Jazzy
 _FOREVER = QosTime(2147483647, 4294967295)
 
 
 def write_bag(file: Path, messages: Iterable[Recorded]) -> None:
-    """Write messages to a single MCAP file, whole or not at all.
+    """Write messages to a single MCAP file: all of them, or none.
 
-    It holds the definitions of the message types, and how the topics were published, so that a
-    player publishes what was latched as latched.
+    The file holds the definitions of the message types and the QoS of the topics, so that a player
+    latches what was latched.
 
     Parameters
     ----------
     file : Path
-        One that is there is replaced.
+        An existing file is replaced.
     messages : iterable of Recorded
     """
     with tempfile.TemporaryDirectory(prefix='.record_', dir=file.parent) as folder:

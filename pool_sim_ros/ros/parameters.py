@@ -1,4 +1,4 @@
-"""The node's parameters in ROS: declared with descriptors, checked and applied when set."""
+"""The node's parameters in ROS: their declaration, and what happens when they change."""
 
 from __future__ import annotations
 
@@ -31,14 +31,17 @@ def declare_parameters(node: Node) -> Settings:
     Raises
     ------
     ParameterError
-        Where they do not make a table; nothing is declared then.
+        If they do not make a table; then nothing is declared.
     """
-    # rclpy has no public access to overrides of undeclared parameters, where a misspelt name is.
+    # A misspelt name is only here: rclpy has no public access to overrides of what is undeclared.
     overrides = {name: parameter.value for name, parameter in node._parameter_overrides.items()}
     values = values_from(overrides)
     settings = build_settings(values)
-    declarations = [(name, values[name], describe(spec)) for name, spec in PARAMETERS.items()]
-    node.declare_parameters('', declarations, ignore_override=True)
+    node.declare_parameters(
+        '',
+        [(name, values[name], describe(spec)) for name, spec in PARAMETERS.items()],
+        ignore_override=True,
+    )
     return settings
 
 
@@ -54,14 +57,13 @@ def describe(spec: ParameterSpec) -> ParameterDescriptor:
         bounds = FloatingPointRange(from_value=float(spec.least), to_value=float(spec.most))
         descriptor.floating_point_range = [bounds]
     elif isinstance(spec.default, int) and not isinstance(spec.default, bool):
-        descriptor.integer_range = [
-            IntegerRange(from_value=int(spec.least), to_value=int(spec.most), step=1)
-        ]
+        bounds = IntegerRange(from_value=int(spec.least), to_value=int(spec.most), step=1)
+        descriptor.integer_range = [bounds]
     return descriptor
 
 
 def on_change(node: Node, apply: Callable[[Settings], None]) -> None:
-    """Have every later change checked, and `apply` called with the settings once it is made."""
+    """Check every later change, and call `apply` with the settings after it."""
 
     def settings_with(parameters: list[Parameter]) -> Settings:
         values = {name: node.get_parameter(name).value for name in PARAMETERS}

@@ -1,33 +1,77 @@
-"""Bringing ROS up and down in a process of our own; what goes wrong is told in one line."""
+"""How ROS comes up and goes down in a process of our own."""
 
 from __future__ import annotations
 
+import argparse
+import functools
 import os
 import re
 import signal
 import sys
 import threading
-import uuid
+from collections.abc import Callable
 
 import rclpy
 from rclpy.context import Context
 from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
 from rclpy.logging import LoggingSeverity, set_logger_level
-from rclpy.node import Node
-from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
+from pool_sim_ros.console import INTERRUPTED, CommandError, Main, console_command
 
-class StartupError(Exception):
+
+class StartupError(CommandError):
     """ROS could not be brought up; the message is for the user."""
 
 
-INTERRUPTED = 130
-"""Exit status after Ctrl-C, as shells have it."""
-
 NAME_ERRORS = (InvalidNamespaceException, InvalidNodeNameException)
 """What the node's constructor raises for a bad `__node` or `__ns`."""
+
+
+def ros_command(
+    name: str,
+    parser: Callable[[], argparse.ArgumentParser],
+    *errors: type[Exception],
+    interrupted: str | None = None,
+    interrupt_status: int = INTERRUPTED,
+) -> Callable[[Callable[[Context, argparse.Namespace], int | None]], Main]:
+    """Return a decorator that makes the `main` of a command which takes part in ROS.
+
+    ROS is up before the function runs, and goes down after it. The function takes the context and
+    the parsed arguments; it returns the exit status, where None stands for 0.
+
+    Parameters
+    ----------
+    name : str
+        What the user calls the command.
+    parser : callable
+        Returns the parser of the arguments that are not for ROS.
+    *errors, interrupted, interrupt_status
+        As in `console.console_command`. Bad names of nodes and bad arguments for ROS are always
+        told in one line.
+    """
+
+    def decorate(run: Callable[[Context, argparse.Namespace], int | None]) -> Main:
+        @console_command(
+            name,
+            *NAME_ERRORS,
+            *errors,
+            interrupted=interrupted,
+            interrupt_status=interrupt_status,
+        )
+        @functools.wraps(run)
+        def main(args: list[str]) -> int | None:
+            options = parser().parse_args(without_ros_args(args))
+            context = init_ros(args)
+            try:
+                return run(context, options)
+            finally:
+                context.try_shutdown()
+
+        return main
+
+    return decorate
 
 
 def without_ros_args(args: list[str]) -> list[str]:
@@ -36,9 +80,9 @@ def without_ros_args(args: list[str]) -> list[str]:
     Raises
     ------
     StartupError
-        Where those for ROS, or a parameter file that they name, cannot be read.
+        If ROS cannot read its arguments, or a parameter file that they name.
     """
-    # What rcl logs about them comes a second time with the exception.
+    # The exception repeats what rcl logs about them.
     set_logger_level('rcl', LoggingSeverity.FATAL)
     try:
         return remove_ros_args(['', *args])[1:]
@@ -49,12 +93,12 @@ def without_ros_args(args: list[str]) -> list[str]:
 
 
 def init_ros(args: list[str]) -> Context:
-    """Bring ROS up with these command line arguments; signals are left alone.
+    """Bring ROS up with these command line arguments, and leave signals alone.
 
     Raises
     ------
     StartupError
-        Where the arguments, or a parameter file that they name, cannot be read.
+        If ROS cannot read its arguments, or a parameter file that they name.
     """
     set_logger_level('rcl', LoggingSeverity.FATAL)
     context = Context()
@@ -64,33 +108,18 @@ def init_ros(args: list[str]) -> Context:
         raise StartupError(_explain(str(error))) from error
     finally:
         set_logger_level('rcl', LoggingSeverity.UNSET)
-
     return context
 
 
-def client_node(context: Context, kind: str, *, enable_rosout: bool = True) -> Node:
-    """Return a node under a name that no other has, which offers no services.
-
-    So many of them can be started, and a security policy need not know their names.
-    """
-    return Node(
-        f'pool_{kind}_{uuid.uuid4().hex[:8]}',
-        context=context,
-        enable_rosout=enable_rosout,
-        start_parameter_services=False,
-        parameter_overrides=[Parameter('start_type_description_service', value=False)],
-    )
-
-
 def shut_down_on_signals(context: Context) -> None:
-    """From now on have SIGINT and SIGTERM shut the context down, and do nothing else.
+    """Make SIGINT and SIGTERM shut the context down, and do nothing else, from now on.
 
-    To be called by the main thread.
+    Only the main thread may call this.
     """
-    # Not rclpy's own handlers: they wake the executor before they shut the context down, which at
-    # times leaves it waiting for ever. Nor would Python's handlers do by themselves: they run in
-    # the main thread once it has left the executor's wait.
-    # Plain descriptors, which nothing closes while the process ends: a second signal may come then.
+    # rclpy's own handlers wake the executor before they shut the context down, and at times it then
+    # waits for ever. Python's handlers alone run too late: in the main thread, after the executor's
+    # wait. The descriptors are plain, so that nothing closes them while the process ends: a second
+    # signal may come then.
     reader, writer = os.pipe()
     os.set_blocking(writer, False)
     for number in (signal.SIGINT, signal.SIGTERM):

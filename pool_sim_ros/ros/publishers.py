@@ -1,4 +1,4 @@
-"""What the node sends, and in what order."""
+"""What the node sends, and in which order."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 
 from pool_sim_ros.ros import cdr, interface, messages
 from pool_sim_ros.ros.marker_publisher import MarkerPublisher
@@ -23,13 +24,13 @@ from pool_sim_ros.simulator import (
 
 
 class Publishers:
-    """The node's publishers and its log: the `output.Output` of a node.
+    """The node's publishers and its log: the runner's `Output`.
 
     Parameters
     ----------
     node : Node
     settings : Settings
-        As at start-up.
+        Those at start-up.
     """
 
     def __init__(self, node: Node, settings: Settings) -> None:
@@ -51,7 +52,7 @@ class Publishers:
         self._clock = self._create(interface.CLOCK) if settings.publish_clock else None
 
     def prepare(self, block: Block) -> None:
-        """Make the messages of the ticks that come next, so that `frame` only sends them."""
+        """Make the messages of the next ticks, so that `frame` only sends them."""
         if block is not self._block:
             self._block = block
             self._block_clocks = cdr.clock_bytes(block.stamps)
@@ -76,7 +77,7 @@ class Publishers:
         self._markers.frame(frame)
 
     def clock(self, stamp: int) -> None:
-        """Send the sim time in ns, where this is wanted."""
+        """Send the sim time in ns, if `publish_clock` is set."""
         if self._clock is not None:
             self._clock.publish(*cdr.clock_bytes([stamp]))
 
@@ -90,7 +91,7 @@ class Publishers:
         self._state.publish(messages.to_json_string(state))
 
     def table(self, settings: Settings) -> None:
-        """Send the table that counts from the next strike."""
+        """Send the table as it is from the next strike on."""
         self._table.publish(messages.to_string(table_to_json(settings.table)))
 
     def diagnostics(self, stamp: int, diagnosis: Diagnosis) -> None:
@@ -114,7 +115,7 @@ class Publishers:
         return all(publisher.get_subscription_count() for publisher in frames)
 
     def wait_for_delivery(self, timeout: Duration) -> None:
-        """Wait until the readers have all frames, at most so long for each topic."""
+        """Wait until the readers have all frames, for each topic at most `timeout`."""
         for publisher in (self._poses, self._velocities, self._collisions):
             publisher.wait_for_all_acked(timeout)
 
@@ -122,5 +123,5 @@ class Publishers:
         """Return whether ROS is up."""
         return self._node.context.ok()
 
-    def _create(self, topic: interface.Topic):
+    def _create(self, topic: interface.Topic) -> Publisher:
         return self._node.create_publisher(topic.type, topic.private, topic.qos)

@@ -5,18 +5,18 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from geometry_msgs.msg import PoseArray
 from rclpy.context import Context
-from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
+from rclpy.subscription import Subscription
 from std_msgs.msg import String
 
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.client import SimulatorError
-from pool_sim_ros.ros.process import client_node
-from pool_sim_ros.ros.spin_thread import SpinThread
+from pool_sim_ros.ros.simulator_link import SimulatorLink
+from pool_sim_ros.simulator import seconds_to_stamp
 
 TOPICS = (
     interface.TABLE,
@@ -28,21 +28,21 @@ TOPICS = (
     interface.COLLISIONS,
     interface.BALL_POSES,
 )
-"""What is recorded.
+"""The topics that are recorded.
 
-The simulator learns of the subscriptions in this order, so that once it sends the last, which comes
-with every tick, it sends the others too.
+The simulator learns of the subscriptions in this order. The last comes with every tick: once it
+arrives, the others do too.
 """
 
 _AT_ONCE = (interface.TABLE, interface.STATE, interface.MARKERS, interface.BALL_POSES)
-"""What comes without a shot: latched, or with every tick."""
+"""The topics that come without a shot: latched, or with every tick."""
 
 _DEPTH = 5000
-"""Messages that may wait to be taken."""
+"""Depth of the queues, in messages."""
 
 
 class Recorded(NamedTuple):
-    """A message: when it came (wall time, ns), the topic, its full name and the CDR bytes."""
+    """A message: its time of arrival (wall time, ns), topic, full name of the topic, CDR bytes."""
 
     time: int
     topic: interface.Topic
@@ -51,7 +51,7 @@ class Recorded(NamedTuple):
 
 
 class Recorder:
-    """Listens from its making to `close`.
+    """Listens from its creation until `close`.
 
     Parameters
     ----------
@@ -63,27 +63,36 @@ class Recorder:
 
     def __init__(self, context: Context, simulator: str) -> None:
         self.messages: list[Recorded] = []
-        """What has come, in order."""
-        self._node = client_node(context, 'recorder')
-        self._simulator = simulator
+        """All messages so far, in the order of their arrival."""
+        self._link = SimulatorLink(context, simulator, 'recorder')
         self._subscriptions = [self._listen(topic) for topic in TOPICS]
-        self._thread = SpinThread(self._node)
+        self._link.start()
 
     def close(self) -> None:
         """Listen no more."""
-        self._thread.close()
-        self._node.destroy_node()
+        self._link.close()
 
     def wait_for_topics(self, timeout: float) -> None:
-        """Wait until all that is published arrives; raises SimulatorError after `timeout` s."""
+        """Wait until everything that is published arrives.
+
+        Parameters
+        ----------
+        timeout : float
+            s.
+
+        Raises
+        ------
+        SimulatorError
+            If a topic is missing after that time.
+        """
         self._wait(self._hears_all, timeout, 'did not publish all its topics')
 
-    def wait_for_end(self, response: dict, timeout: float) -> None:
-        """Wait until all of a shot has come.
+    def wait_for_end(self, response: dict[str, Any], timeout: float) -> None:
+        """Wait until everything of a shot has arrived.
 
-        That is the last response to its request, after which no other comes, and two frames that
-        show its end: whatever was published with or before the first has been taken by then, for
-        the executor takes from each topic in turn.
+        That is the last response to its request, and two frames that show its end. The executor
+        takes from each topic in turn, so that with the second frame it has taken whatever was
+        published with the first, or before.
 
         Parameters
         ----------
@@ -95,9 +104,9 @@ class Recorder:
         Raises
         ------
         SimulatorError
-            Where something is missing after that time.
+            If something is missing after that time.
         """
-        end = round(response['t_end'] * 1e9)
+        end = seconds_to_stamp(response['t_end'])
 
         def came() -> bool:
             frames = [m.data for m in self.messages if m.topic is interface.BALL_POSES]
@@ -115,28 +124,22 @@ class Recorder:
 
     def _hears_all(self) -> bool:
         heard = {message.name for message in self.messages}
-        return heard >= {
-            self._node.resolve_topic_name(topic.of(self._simulator)) for topic in _AT_ONCE
-        } and all(subscription.get_publisher_count() for subscription in self._subscriptions)
-
-    def _listen(self, topic: interface.Topic):
-        name = self._node.resolve_topic_name(topic.of(self._simulator))
-        qos = QoSProfile(
-            depth=_DEPTH,
-            reliability=topic.qos.reliability,
-            durability=topic.qos.durability,
+        return heard >= {self._link.full_name(topic) for topic in _AT_ONCE} and all(
+            subscription.get_publisher_count() for subscription in self._subscriptions
         )
-        if topic is interface.SHOT_RESPONSE:
-            qos.durability = interface.SHOT_REQUEST.qos.durability  # not those of the past
+
+    def _listen(self, topic: interface.Topic) -> Subscription:
+        name = self._link.full_name(topic)
 
         def keep(data: bytes) -> None:
             self.messages.append(Recorded(time.time_ns(), topic, name, bytes(data)))
 
-        return self._node.create_subscription(topic.type, name, keep, qos, raw=True)
+        past = topic is not interface.SHOT_RESPONSE  # of which there may be a thousand
+        return self._link.subscribe(topic, keep, depth=_DEPTH, past=past, raw=True)
 
     def _wait(self, condition: Callable[[], bool], timeout: float, otherwise: str) -> None:
         end = time.monotonic() + timeout
         while not condition():
             if time.monotonic() > end:
-                raise SimulatorError(f'{self._simulator} {otherwise} within {timeout:g} s')
+                raise SimulatorError(f'{self._link.simulator} {otherwise} within {timeout:g} s')
             time.sleep(0.01)

@@ -1,13 +1,14 @@
 """The node: a pool table on ROS topics."""
 
+# Some methods of rclpy's Node have no types.
+# mypy: allow-untyped-calls
+
 from __future__ import annotations
 
-import argparse
-import sys
+from collections.abc import Callable
 
 from geometry_msgs.msg import PoseArray, Twist
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_msgs.msg import String
@@ -15,17 +16,8 @@ from std_srvs.srv import SetBool, Trigger
 
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.parameters import declare_parameters, on_change
-from pool_sim_ros.ros.process import (
-    NAME_ERRORS,
-    StartupError,
-    init_ros,
-    leave_at_once,
-    shut_down_on_signals,
-    without_ros_args,
-)
 from pool_sim_ros.ros.publishers import Publishers
 from pool_sim_ros.simulator import (
-    PARAMETERS,
     CommandLog,
     LogError,
     ParameterError,
@@ -35,16 +27,14 @@ from pool_sim_ros.simulator import (
 )
 
 LOG_PERIOD = 0.1
-"""Seconds between two warnings in the log; the responses are never held back."""
-
-SHUTDOWN_PATIENCE = 0.1
-"""Seconds that a shot which is being computed is given to end before the process does."""
+"""Seconds between two warnings in the log; this delays no response."""
 
 
 class SimNode(Node):
-    """Owns the table; spun by whoever made it, until `destroy_node`.
+    """The pool table as a node, until `destroy_node`.
 
-    The owner's executor runs the callbacks; frames and shots have threads of their own.
+    Its owner spins it: the owner's executor runs the callbacks. Frames and shots have threads of
+    their own.
 
     Parameters
     ----------
@@ -55,7 +45,7 @@ class SimNode(Node):
     Raises
     ------
     ParameterError
-        Where the parameters do not make a table.
+        If the parameters do not make a table.
     """
 
     def __init__(
@@ -84,18 +74,18 @@ class SimNode(Node):
 
     @property
     def failed(self) -> bool:
-        """Whether a thread failed; the context is shut down then."""
+        """Whether a thread failed, which also shuts the context down."""
         return self._output.failed
 
     def destroy_node(self) -> None:
-        """Stop the threads and leave ROS; a shot that is being computed is left behind."""
+        """Stop the threads and leave ROS; this does not wait for a shot that is being computed."""
         self.runner.stop(0.0)
         super().destroy_node()
 
-    def _subscribe(self, topic: interface.Topic, callback) -> None:
+    def _subscribe(self, topic: interface.Topic, callback: Callable[..., None]) -> None:
         self.create_subscription(topic.type, topic.private, callback, topic.qos)
 
-    def _serve(self, service: interface.Service, callback) -> None:
+    def _serve(self, service: interface.Service, callback: Callable[..., object]) -> None:
         self.create_service(service.type, service.private, callback)
 
     def _open_log(self, settings: Settings) -> CommandLog | None:
@@ -142,59 +132,3 @@ class SimNode(Node):
 
     def _warn(self, line: str) -> None:
         self.get_logger().warn(line, throttle_duration_sec=LOG_PERIOD)
-
-
-def main(args: list[str] | None = None) -> int:
-    """Run the node until SIGINT or SIGTERM; return the exit status."""
-    args = sys.argv[1:] if args is None else args
-    try:
-        _parser().parse_args(without_ros_args(args))
-        return _run(init_ros(args))
-    except (StartupError, ParameterError, *NAME_ERRORS) as error:
-        print(f'sim_node: {error}', file=sys.stderr)
-        return 1
-
-
-def _run(context: Context) -> int:
-    shut_down_on_signals(context)
-    node = None
-    try:
-        node = SimNode(context=context)
-        executor = SingleThreadedExecutor(context=context)
-        executor.add_node(node)
-        executor.spin()
-    except Exception:
-        if context.ok():  # else the shutdown overtook whatever was going on
-            raise
-    finally:
-        idle = node is None or node.runner.stop(SHUTDOWN_PATIENCE)
-        if node is not None:
-            node.destroy_node()
-        context.try_shutdown()
-    status = int(node is not None and node.failed)
-    if not idle:
-        leave_at_once(status)
-    return status
-
-
-def _parser() -> argparse.ArgumentParser:
-    endpoints = [item for item in vars(interface).values() if isinstance(item, interface.Endpoint)]
-    epilog = [
-        'ROS arguments: --ros-args --params-file FILE -p NAME:=VALUE -r __node:=NAME -r __ns:=/NS',
-        '',
-        'topics and services:',
-        *(f'  {endpoint.private}: {endpoint.doc}' for endpoint in endpoints),
-        '',
-        'parameters:',
-        *(f'  {spec.name}: {spec.doc} ({spec.change.value})' for spec in PARAMETERS.values()),
-    ]
-    return argparse.ArgumentParser(
-        prog='sim_node',
-        description='A pool table on ROS topics. Without parameters: the table of the report.',
-        epilog='\n'.join(epilog),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-
-
-if __name__ == '__main__':
-    sys.exit(main())

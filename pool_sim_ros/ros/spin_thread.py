@@ -1,4 +1,4 @@
-"""A node that is spun in the background."""
+"""Spinning a node in the background."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ import threading
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 
+LONGEST_WAIT = 0.5
+"""Longest time between two checks of whether to end, s."""
+
 
 class SpinThread:
-    """Runs the callbacks of a node in a thread of its own, from its making to `close`.
+    """Runs the callbacks of a node in a thread of its own until `close`.
 
     Parameters
     ----------
@@ -26,15 +29,15 @@ class SpinThread:
 
     def close(self) -> None:
         """Run no more callbacks."""
-        # Not shutdown() first: the thread may be in the midst of what that takes away.
+        # Not shutdown() first: the thread may still use what that takes away.
         self._closing.set()
-        self._executor.wake()
+        self._executor.create_task(lambda: None)  # a task ends its wait
         self._thread.join()
         self._executor.shutdown(0.0)
 
     def _spin(self) -> None:
         try:
             while not self._closing.is_set():
-                self._executor.spin_once(0.5)
+                self._executor.spin_once(LONGEST_WAIT)
         except ExternalShutdownException:
             pass

@@ -1,12 +1,16 @@
 """The table in a browser: a client of the node's topics that serves a page.
 
+It imports `ros`, `simulator`, `me212`, `physics` and `console`, and no room imports it: it is a
+process of its own, and starts with `python -m pool_sim_ros.web_view`.
+
+command     how it starts and ends
 bridge      ROS: topics and services of the simulator, in a thread of its own
 poses       the latest ball poses, fetched 100 times a second
-view        between the two: what the pages are shown, and what they may ask for
+view        between bridge and pages: what they are shown, and what they may ask for
 server      HTTP and websockets
 pages       the pages that are open
 commands    what a page may say
-frames      ball poses, from the wire to the page, without objects in between
+frames      ball poses, from the bytes of ROS to those of the page
 prediction  where the balls would go
 static/     the page itself
 """

@@ -1,23 +1,28 @@
-"""The ROS side: a client of the simulator, spun by a thread of its own."""
+"""The ROS side: a client of the simulator, with a thread of its own."""
 
 from __future__ import annotations
 
 import asyncio
 import uuid
 from collections.abc import Callable
-from typing import Protocol
+from typing import Any, Protocol
 
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters
 from rclpy.context import Context
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from pool_sim_ros.ros import SpinThread, client_node, interface, messages
+from pool_sim_ros.ros import SimulatorLink, interface, messages
 from pool_sim_ros.web_view.poses import LatestPoses
 
+SET_PARAMETERS = interface.Service('set_parameters', SetParameters, 'set parameters of the node')
+"""A service that every node has."""
+
+SERVICES = (interface.RESET, interface.STEP, interface.SET_PAUSED, SET_PARAMETERS)
+"""The services that the pages use."""
+
 PATIENCE = 6.0
-"""Seconds that a service is given to answer; a step may wait 5 s for a shot that is computed."""
+"""Seconds to wait for a service; a step may itself wait 5 s for a shot that is being computed."""
 
 
 class NoAnswerError(Exception):
@@ -25,23 +30,23 @@ class NoAnswerError(Exception):
 
 
 class Listener(Protocol):
-    """Who is told what the simulator sends; always within the event loop."""
+    """Takes what the simulator sends, always within the event loop."""
 
-    def on_collisions(self, message: object) -> None:
+    def on_collisions(self, message: Any) -> None:
         """Take a message of `~/collisions`."""
 
-    def on_response(self, message: object) -> None:
+    def on_response(self, message: Any) -> None:
         """Take a message of `~/shot/response`."""
 
-    def on_state(self, message: object) -> None:
+    def on_state(self, message: Any) -> None:
         """Take a message of `~/state`."""
 
-    def on_table(self, message: object) -> None:
+    def on_table(self, message: Any) -> None:
         """Take a message of `~/table`."""
 
 
 class Bridge:
-    """Talks to one simulator. Its methods belong to the event loop that it is made in.
+    """Talks to one simulator. Its methods belong to the event loop in which it was made.
 
     Parameters
     ----------
@@ -54,56 +59,44 @@ class Bridge:
 
     def __init__(self, context: Context, simulator: str, listener: Listener) -> None:
         self._loop = asyncio.get_running_loop()
-        self._simulator = simulator
-        self._node = client_node(context, 'web_view')
-        topic = interface.SHOT_REQUEST
-        self._requests = self._node.create_publisher(topic.type, topic.of(simulator), topic.qos)
+        self._link = SimulatorLink(context, simulator, 'web_view')
+        self._requests = self._link.publisher(interface.SHOT_REQUEST)
         self._poses = LatestPoses(context, simulator)
-        self._subscribe(interface.COLLISIONS, self._hand_to(listener.on_collisions))
-        # Not those of the past: the simulator keeps a thousand of them.
-        past = QoSProfile(
-            depth=interface.BURST,
-            reliability=ReliabilityPolicy.RELIABLE,
-            durability=DurabilityPolicy.VOLATILE,
-        )
-        self._subscribe(interface.SHOT_RESPONSE, self._hand_to(listener.on_response), qos=past)
-        self._subscribe(interface.STATE, self._hand_to(listener.on_state))
-        self._subscribe(interface.TABLE, self._hand_to(listener.on_table))
-        self._services = {
-            service: self._node.create_client(service.type, service.of(simulator))
-            for service in (interface.RESET, interface.STEP, interface.SET_PAUSED)
-        }
-        self._set_parameters = self._node.create_client(
-            SetParameters, f'{simulator}/set_parameters'
-        )
-        self._thread = SpinThread(self._node)
+        for topic, callback in (
+            (interface.COLLISIONS, listener.on_collisions),
+            (interface.SHOT_RESPONSE, listener.on_response),
+            (interface.STATE, listener.on_state),
+            (interface.TABLE, listener.on_table),
+        ):
+            past = topic is not interface.SHOT_RESPONSE  # of which there may be a thousand
+            self._link.subscribe(topic, self._hand_to(callback), past=past)
+        self._clients = {service: self._link.client(service) for service in SERVICES}
+        self._link.start()
 
     @property
     def simulator(self) -> str:
-        """Full name of the node that is talked to."""
-        return self._requests.topic_name.removesuffix(f'/{interface.SHOT_REQUEST.name}')
+        """Full name of the simulator."""
+        return self._link.simulator
 
     def is_matched(self) -> bool:
-        """Return whether the simulator hears what is asked of it from now on."""
-        clients = (*self._services.values(), self._set_parameters)
+        """Return whether the simulator hears requests from now on."""
         return self._requests.get_subscription_count() > 0 and all(
-            client.service_is_ready() for client in clients
+            client.service_is_ready() for client in self._clients.values()
         )
 
     def close(self) -> None:
         """Leave ROS."""
-        self._thread.close()
+        self._link.close()
         self._poses.close()
-        self._node.destroy_node()
 
     def latest_poses(self) -> bytes | None:
-        """Return the latest message of `~/ball_poses`, serialised; None where none is new."""
+        """Return the latest message of `~/ball_poses`, serialised; None if none is new."""
         return self._poses.take()
 
     def left_out(self, error: Exception) -> None:
-        """Tell in the log that something the simulator sent made no sense."""
+        """Write to the log that something from the simulator made no sense."""
         line = f'not understood, and left out: {error}'
-        self._node.get_logger().warn(line, throttle_duration_sec=1.0)
+        self._link.logger.warn(line, throttle_duration_sec=1.0)
 
     def request(self, **fields: object) -> None:
         """Send a request, as `~/shot/request` takes it, under a new id."""
@@ -111,26 +104,25 @@ class Bridge:
         self._requests.publish(messages.to_json_string(request))
 
     async def call(self, service: interface.Service, **fields: object) -> tuple[bool, str]:
-        """Call a service; return whether it did what was asked, and its words.
+        """Call a service; return whether it succeeded, and its words.
 
         Raises
         ------
         NoAnswerError
-            Where nobody answers.
+            If nobody answers.
         """
-        answer = await self._answer(self._services[service], service.type.Request(**fields))
+        answer = await self._answer(service, **fields)
         return answer.success, answer.message
 
     async def set_parameter(self, name: str, value: object) -> tuple[bool, str]:
         """Set a parameter of the simulator; returns and raises as `call`."""
         parameter: ParameterMessage = Parameter(name, value=value).to_parameter_msg()
-        answer = await self._answer(
-            self._set_parameters, SetParameters.Request(parameters=[parameter])
-        )
+        answer = await self._answer(SET_PARAMETERS, parameters=[parameter])
         (result,) = answer.results
         return result.successful, result.reason
 
-    async def _answer(self, client, request):
+    async def _answer(self, service: interface.Service, **fields: object) -> Any:
+        client = self._clients[service]
         nobody = f'{self.simulator} does not answer'
         if not client.service_is_ready():
             raise NoAnswerError(nobody)
@@ -144,7 +136,7 @@ class Bridge:
             except Exception as error:
                 answered.set_exception(NoAnswerError(f'{nobody}: {error}'))
 
-        future = client.call_async(request)
+        future = client.call_async(service.type.Request(**fields))
         future.add_done_callback(lambda _: self._in_loop(hand_over))
         try:
             return await asyncio.wait_for(answered, PATIENCE)
@@ -152,25 +144,16 @@ class Bridge:
             client.remove_pending_request(future)
             raise NoAnswerError(nobody) from None
 
-    def _subscribe(
-        self,
-        topic: interface.Topic,
-        callback: Callable,
-        qos: QoSProfile | None = None,
-    ) -> None:
-        name = topic.of(self._simulator)
-        self._node.create_subscription(topic.type, name, callback, qos or topic.qos)
-
-    def _hand_to(self, callback: Callable) -> Callable:
+    def _hand_to(self, callback: Callable[[Any], None]) -> Callable[[Any], None]:
         return lambda message: self._in_loop(self._hand_over, callback, message)
 
-    def _hand_over(self, callback: Callable, message: object) -> None:
+    def _hand_over(self, callback: Callable[[Any], None], message: object) -> None:
         try:
             callback(message)
         except (KeyError, TypeError, ValueError) as error:
             self.left_out(error)
 
-    def _in_loop(self, callback: Callable, *args: object) -> None:
-        # A loop that has ended meanwhile wants to know nothing more.
+    def _in_loop(self, callback: Callable[..., object], *args: object) -> None:
+        # The loop may have ended meanwhile.
         if not self._loop.is_closed():
             self._loop.call_soon_threadsafe(callback, *args)

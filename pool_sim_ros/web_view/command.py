@@ -9,60 +9,10 @@ import sys
 
 from rclpy.context import Context
 
-from pool_sim_ros.ros import NAME_ERRORS, StartupError, init_ros, interface, without_ros_args
+from pool_sim_ros.console import CommandError
+from pool_sim_ros.ros import interface, ros_command
 
 HOST, PORT = '127.0.0.1', 8080
-
-
-def main(args: list[str] | None = None) -> int:
-    """Serve the page until SIGINT or SIGTERM; return the exit status."""
-    args = sys.argv[1:] if args is None else args
-    try:
-        options = _parser().parse_args(without_ros_args(args))
-        try:
-            import aiohttp  # noqa: F401
-        except ModuleNotFoundError:
-            raise StartupError(
-                "the page needs aiohttp: pip install 'pool_sim_ros[web]', "
-                'or apt install python3-aiohttp'
-            ) from None
-        context = init_ros(args)
-        try:
-            asyncio.run(_serve(context, options))
-        finally:
-            context.try_shutdown()
-    except (StartupError, *NAME_ERRORS) as error:
-        print(f'web_view: {error}', file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:  # before the loop takes signals
-        pass
-    return 0
-
-
-async def _serve(context: Context, options: argparse.Namespace) -> None:
-    from pool_sim_ros.web_view.server import Server
-    from pool_sim_ros.web_view.view import View
-
-    ended = asyncio.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        asyncio.get_running_loop().add_signal_handler(number, ended.set)
-    view = View(context, options.node)
-    try:
-        server = Server(view, options.host, options.port)
-        try:
-            try:
-                address = await server.start()
-            except OSError as error:
-                raise StartupError(
-                    f'cannot listen at {options.host}, port {options.port}: {error.strerror}; '
-                    'choose others with --host and --port'
-                ) from error
-            print(f'{address} shows {view.simulator}; Ctrl-C ends this', flush=True)
-            await ended.wait()
-        finally:
-            await server.stop()
-    finally:
-        view.close()
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -98,6 +48,45 @@ def _port(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text) < 65536):
         raise argparse.ArgumentTypeError(f'{text!r} is not a port, 0 to 65535')
     return int(text)
+
+
+@ros_command('web_view', _parser, interrupt_status=0)
+def main(context: Context, options: argparse.Namespace) -> None:
+    """Serve the page until SIGINT or SIGTERM."""
+    try:
+        import aiohttp  # noqa: F401
+    except ModuleNotFoundError:
+        raise CommandError(
+            "the page needs aiohttp: pip install 'pool_sim_ros[web]', "
+            'or apt install python3-aiohttp'
+        ) from None
+    asyncio.run(_serve(context, options))
+
+
+async def _serve(context: Context, options: argparse.Namespace) -> None:
+    from pool_sim_ros.web_view.server import Server
+    from pool_sim_ros.web_view.view import View
+
+    ended = asyncio.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        asyncio.get_running_loop().add_signal_handler(number, ended.set)
+    view = View(context, options.node)
+    try:
+        server = Server(view, options.host, options.port)
+        try:
+            try:
+                address = await server.start()
+            except OSError as error:
+                raise CommandError(
+                    f'cannot listen at {options.host}, port {options.port}: {error.strerror}; '
+                    'choose others with --host and --port'
+                ) from error
+            print(f'{address} shows {view.simulator}; Ctrl-C ends this', flush=True)
+            await ended.wait()
+        finally:
+            await server.stop()
+    finally:
+        view.close()
 
 
 if __name__ == '__main__':

@@ -1,13 +1,14 @@
-"""What a page may say to the server: parsing and checking, pure."""
+"""What a page may say to the server: pure parsing and checks."""
 
 from __future__ import annotations
 
 import json
 import math
 from dataclasses import dataclass
+from typing import Any, TypeGuard
 
 LONGEST = 1024
-"""Characters of a command; the longest sensible one has about 100."""
+"""Most characters of a command; the longest sensible one has about 100."""
 
 _FIELDS = {
     'aim': 'velocity',
@@ -18,35 +19,35 @@ _FIELDS = {
     'step': None,
     'reset': None,
 }
-"""What can be asked for -> the one field that goes with it."""
+"""Name of a command -> the one field that goes with it."""
 
 
 @dataclass(frozen=True)
 class Command:
-    """One wish of a page.
+    """One command of a page.
 
     Attributes
     ----------
     name : str
         aim (predict only), strike, shot, pause, speed, step or reset.
-    value : object
+    value : tuple, int, bool, float or None
         aim, strike: (x, y) in m/s; shot: a report shot's number; pause: bool; speed: the real time
         factor, 0 for as fast as possible; else None.
     """
 
     name: str
-    value: object = None
+    value: Any = None
 
 
 def parse_command(text: str) -> Command:
     """Read a command: JSON like ``{"do": "strike", "velocity": [-4.0, 0.0]}``.
 
-    Ranges that the simulator knows (shots, speeds) are left to it.
+    The simulator itself checks the ranges that it knows (shots, speeds).
 
     Raises
     ------
     ValueError
-        Says in words what is wrong.
+        If it is no command; the message says what is wrong.
     """
     if len(text) > LONGEST:
         raise ValueError(f'a command has at most {LONGEST} characters, not {len(text)}')
@@ -90,8 +91,8 @@ def _factor(value: object) -> float:
     raise ValueError('factor must be a finite number, 0 or more')
 
 
-def _is_finite(value: object) -> bool:
-    if type(value) not in (int, float):
+def _is_finite(value: object) -> TypeGuard[int | float]:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
     try:
         return math.isfinite(value)

@@ -7,7 +7,7 @@ import struct
 import numpy as np
 
 _HEAD = 4
-"""Bytes before the message itself (CDR encapsulation); alignment counts from there."""
+"""Bytes before the message itself (CDR encapsulation); alignment counts from its end."""
 
 _POSE = 7
 """Numbers in a pose: position x, y, z and orientation x, y, z, w."""
@@ -29,7 +29,7 @@ def page_frame(message: bytes) -> bytes:
     Raises
     ------
     ValueError
-        Where these are not the bytes of a PoseArray.
+        If these are not the bytes of a PoseArray.
     """
     try:
         order = '<' if message[1] & 1 else '>'

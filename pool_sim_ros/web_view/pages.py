@@ -1,4 +1,4 @@
-"""The pages that are open, and what each is still to be sent."""
+"""The open pages, and what still has to go to each."""
 
 from __future__ import annotations
 
@@ -7,35 +7,39 @@ import json
 from collections import deque
 
 LONGEST_QUEUE = 512
-"""Texts that a page may be behind; one that is further behind is given up. Frames never queue:
+"""Most texts that wait for a page; a page that is further behind is given up. Frames never queue:
 only the latest counts."""
 
 
 class Page:
-    """What is to be sent to one page."""
+    """What still has to go to one page."""
 
     def __init__(self) -> None:
         self.lost = False
-        """Whether it is too slow to be told everything."""
+        """Whether it is too slow for everything it should be told."""
         self._texts: deque[str] = deque()
         self._frame: bytes | None = None
         self._something = asyncio.Event()
 
     def tell(self, text: str) -> None:
-        """Send a text, after those before it."""
+        """Send a text, after the earlier ones."""
         self.lost = self.lost or len(self._texts) >= LONGEST_QUEUE
         if not self.lost:
             self._texts.append(text)
         self._something.set()
 
     def show(self, frame: bytes) -> None:
-        """Send a frame, instead of one that is still to be sent."""
+        """Send a frame, in place of one that still waits."""
         self._frame = frame
         self._something.set()
 
-    async def next(self) -> str | bytes:
-        """Wait for, and take, what is to be sent next; texts go before the frame."""
+    async def next(self) -> str | bytes | None:
+        """Wait for the next item to send, and take it; texts go before the frame.
+
+        None if there is no item but the page is lost.
+        """
         await self._something.wait()
+        item: str | bytes | None
         if self._texts:
             item = self._texts.popleft()
         else:
@@ -46,7 +50,7 @@ class Page:
 
 
 class Pages:
-    """All of them; a page that comes late is told what counts at that time."""
+    """All open pages; a late page is told what counts at that time."""
 
     def __init__(self) -> None:
         self._open: set[Page] = set()
@@ -54,7 +58,7 @@ class Pages:
         self._frame: bytes | None = None
 
     def open(self) -> Page:
-        """Return a new page, which is told at once what was kept for it."""
+        """Return a new page, and tell it at once what was kept."""
         page = Page()
         for text in self._kept.values():
             page.tell(text)
@@ -68,7 +72,7 @@ class Pages:
         self._open.discard(page)
 
     def tell(self, kind: str, content: object, *, keep: bool = False) -> None:
-        """Send JSON to every page, and with `keep` to those that come later, until the next."""
+        """Send JSON to every page; with `keep` also to later pages, until the next of its kind."""
         text = message(kind, content)
         if keep:
             self._kept[kind] = text
@@ -76,11 +80,11 @@ class Pages:
             page.tell(text)
 
     def forget(self, kind: str) -> None:
-        """No longer tell new pages the last of this kind."""
+        """Stop telling new pages the last of this kind."""
         self._kept.pop(kind, None)
 
     def show(self, frame: bytes | None) -> None:
-        """Send a frame to every page, and to those that come later; None forgets the last."""
+        """Send a frame to every page, also to later ones; None forgets the last."""
         self._frame = frame
         if frame is not None:
             for page in self._open:
@@ -88,5 +92,5 @@ class Pages:
 
 
 def message(kind: str, content: object) -> str:
-    """Return a text as pages are told it: ``{"kind": ..., "content": ...}``."""
+    """Return the text of a message to a page: ``{"kind": ..., "content": ...}``."""
     return json.dumps({'kind': kind, 'content': content}, allow_nan=False)

@@ -1,16 +1,16 @@
-"""The latest ball poses, fetched when they are wanted instead of delivered by an executor."""
+"""The latest ball poses, fetched on demand instead of delivered by an executor."""
 
 from __future__ import annotations
 
 from rclpy.context import Context
 
-from pool_sim_ros.ros import client_node, interface
+from pool_sim_ros.ros import SimulatorLink, interface
 
 
 class LatestPoses:
-    """A subscription to `~/ball_poses` that is looked at now and then.
+    """A subscription to `~/ball_poses`, for a reader that looks now and then.
 
-    Waking an executor for each of 60 messages in a second costs three times as much as this.
+    An executor that wakes for each of 60 messages a second costs three times as much.
 
     Parameters
     ----------
@@ -21,15 +21,12 @@ class LatestPoses:
     """
 
     def __init__(self, context: Context, simulator: str) -> None:
-        # A node of its own, which no executor knows: that would take the messages away.
-        self._node = client_node(context, 'web_poses', enable_rosout=False)
-        topic = interface.BALL_POSES
-        self._subscription = self._node.create_subscription(
-            topic.type, topic.of(simulator), lambda _: None, topic.qos, raw=True
-        )
+        # A node of its own, which no executor knows: an executor would take the messages away.
+        self._link = SimulatorLink(context, simulator, 'web_poses', enable_rosout=False)
+        self._subscription = self._link.subscribe(interface.BALL_POSES, lambda _: None, raw=True)
 
     def take(self) -> bytes | None:
-        """Return the latest message, serialised; None where none has come since the last time."""
+        """Return the latest message, serialised; None if none has come since the last call."""
         latest = None
         subscription = self._subscription
         with subscription.handle:  # keeps it alive
@@ -39,4 +36,4 @@ class LatestPoses:
 
     def close(self) -> None:
         """Leave ROS."""
-        self._node.destroy_node()
+        self._link.close()

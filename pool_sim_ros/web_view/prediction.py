@@ -1,4 +1,4 @@
-"""Where the balls would go: what a page draws while somebody aims."""
+"""Where the balls would go: a page draws it while somebody aims."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from pool_sim_ros.physics import Table, simulate
 
 LONGEST = 120.0
-"""Seconds of play that are predicted; the default of the node's `max_shot_duration`."""
+"""Longest prediction, in s of play: the default of the node's `max_shot_duration`."""
 
 
 def predict(
@@ -19,7 +19,7 @@ def predict(
     ----------
     table : Table
     positions : ndarray of shape (n, 2)
-        Where the balls rest, m.
+        Positions of the resting balls, m.
     velocity : tuple of float
         Of the cue ball, m/s.
 
@@ -27,17 +27,16 @@ def predict(
     -------
     dict
         ``paths``: for each ball that moves its index ``ball`` and ``points``, the corners of its
-        way, [[x, y], ...] in m; ``duration``: s until all balls rest.
+        path, [[x, y], ...] in m; ``duration``: time until all balls rest, s.
 
     Raises
     ------
     ValueError
-        Where the balls cannot lie there.
+        If the balls cannot lie there.
     """
     shot = simulate(table, velocity, positions=positions, until=LONGEST)
-    moved = np.flatnonzero(np.any(shot.final_positions != positions, axis=1))
-    moved = sorted({*moved.tolist(), *shot.segments['ball'][shot.segments['speed'] > 0.0].tolist()})
+    paths = [shot.path(i) for i in range(len(positions))]
     return {
-        'paths': [{'ball': i, 'points': shot.path(i).tolist()} for i in moved],
+        'paths': [{'ball': i, 'points': p.tolist()} for i, p in enumerate(paths) if len(p) > 1],
         'duration': shot.duration,
     }

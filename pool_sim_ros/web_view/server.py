@@ -1,4 +1,4 @@
-"""HTTP: the page, and a websocket for each that is open."""
+"""HTTP: the page, and a websocket for each open page."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from pool_sim_ros.web_view.pages import Page
 from pool_sim_ros.web_view.view import View
 
 HEARTBEAT = 20.0
-"""Seconds between two signs of life that a page is asked for."""
+"""Seconds between two pings of a page."""
 
 HEADERS = {
     'Content-Security-Policy': "default-src 'self'; img-src 'self' data:; base-uri 'none'; "
@@ -60,7 +60,7 @@ class Server:
         Raises
         ------
         OSError
-            Where the address is taken, or not this machine's.
+            If the address is taken, or is not one of this machine.
         """
         await self._runner.setup()
         await web.TCPSite(self._runner, self._host, self._port).start()
@@ -87,7 +87,7 @@ class Server:
         return web.Response(text=page, content_type='text/html')
 
     async def _socket(self, request: web.Request) -> web.StreamResponse:
-        # Browsers let every site open websockets to any server: it is for the server to refuse.
+        # Browsers let every site open websockets to any server: the server has to refuse.
         if urlsplit(request.headers.get('Origin', '')).netloc.lower() != request.host.lower():
             raise web.HTTPForbidden(text='only for the page of this server\n')
         connection = web.WebSocketResponse(heartbeat=HEARTBEAT, max_msg_size=4 * LONGEST)
@@ -113,17 +113,17 @@ class Server:
 
 
 def is_own_name(name: str, listening: str) -> bool:
-    """Return whether a request's Host may name a server that listens at an address.
+    """Return whether the Host of a request can be a name of a server at an address.
 
-    A foreign site can give its own name this machine's address, so that its pages seem to be ours;
-    that name is then in the Host.
+    A foreign site can give its own name this machine's address, so that its pages seem to be ours.
+    The Host is then that name.
 
     Parameters
     ----------
     name : str
         The Host, with or without a port.
     listening : str
-        The address that the server was told to listen at.
+        The address at which the server listens.
     """
     host = urlsplit(f'//{name}').hostname or ''
     if host == 'localhost' or host == listening:
@@ -134,7 +134,7 @@ def is_own_name(name: str, listening: str) -> bool:
 
 
 def is_loopback(host: str) -> bool:
-    """Return whether an address or a name is that of this machine for itself."""
+    """Return whether an address or a name is a loopback."""
     return host == 'localhost' or (_is_address(host) and ipaddress.ip_address(host).is_loopback)
 
 
@@ -154,5 +154,5 @@ async def _send(connection: web.WebSocketResponse, page: Page) -> None:
                 await connection.close(code=WSCloseCode.TRY_AGAIN_LATER)
             elif isinstance(item, str):
                 await connection.send_str(item)
-            else:
+            elif item is not None:
                 await connection.send_bytes(item)

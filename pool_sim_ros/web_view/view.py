@@ -1,10 +1,12 @@
-"""Between simulator and pages: what the pages are shown, and what they may ask for."""
+"""Between simulator and pages: what the pages show, and what they may ask for."""
 
 from __future__ import annotations
 
 import asyncio
 import json
+from collections.abc import Coroutine
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 from rclpy.context import Context
@@ -20,16 +22,17 @@ from pool_sim_ros.web_view.pages import Page, Pages, message
 from pool_sim_ros.web_view.prediction import predict
 
 SILENCE = 4
-"""Looks, one a second, that find no `~/state`, which comes every second: the simulator is gone. Not
-simply a time: after a pause of this process itself, what came meanwhile has yet to be read."""
+"""The simulator is gone after so many looks, one a second, without a `~/state`, which comes every
+second. A time alone would not do: after a pause of this process, it still has to read what came
+meanwhile."""
 
 FRAME_PERIOD = 1 / 100
-"""Seconds between two looks for a new frame: at real speed one comes every 1/60 s. Of a simulator
-that runs as fast as it can the pages see the latest."""
+"""Seconds between two looks for a new frame; at real speed one comes every 1/60 s. If the simulator
+runs faster, the pages see the latest."""
 
 
 class View:
-    """Shows one simulator to the pages, and does what they ask for.
+    """Shows one simulator to the pages, and does what they ask.
 
     Parameters
     ----------
@@ -43,19 +46,19 @@ class View:
         self.pages = Pages()
         self._table: Table | None = None
         self._compiled = False
-        self._state: dict[str, object] | None = None
+        self._state: dict[str, Any] | None = None
         self._frame: bytes | None = None
         self._printed = published_final_positions()
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
-        self._tasks: set[asyncio.Task] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
         self._bridge = Bridge(context, simulator, self)
         self._tell_whether_there()
         self._look = self._loop.call_soon(self._look_for_frame)
 
     @property
     def simulator(self) -> str:
-        """Full name of the node that is shown."""
+        """Full name of the simulator."""
         return self._bridge.simulator
 
     def close(self) -> None:
@@ -68,7 +71,7 @@ class View:
         self._bridge.close()
 
     async def obey(self, page: Page, text: str) -> None:
-        """Do what a page asks for; tell it what is wrong with that."""
+        """Do what a page asks; tell the page if this fails, and why."""
         try:
             await self._obey(page, parse_command(text))
         except (ValueError, NoAnswerError) as error:
@@ -97,9 +100,11 @@ class View:
         return await self._bridge.call(service)
 
     async def _predict(self, velocity: tuple[float, float]) -> dict[str, object] | None:
-        """Return the paths, or None where there is nothing to predict from."""
-        table, frame = self._table, self._frame
-        if table is None or frame is None or self._state['moving'] or not self._compiled:
+        """Return the paths, or None if there is nothing to predict from."""
+        table, frame, state = self._table, self._frame, self._state
+        if table is None or frame is None or not self._compiled:
+            return None
+        if state is None or state['moving']:
             return None
         positions = frame_positions(frame)
         if len(positions) != len(table.balls) or not any(velocity):
@@ -108,15 +113,15 @@ class View:
         paths = await asyncio.to_thread(predict, table, positions, velocity)
         return {'velocity': velocity, **paths}
 
-    def on_collisions(self, collisions: object) -> None:
-        """Show what touched; see `bridge.Listener`."""
+    def on_collisions(self, collisions: Any) -> None:
+        """Show the collisions; see `bridge.Listener`."""
         rows = messages.from_rows(collisions)
         if rows.shape[1] != len(COLLISION_COLUMNS) or not np.isfinite(rows).all():
             return
         self.pages.tell('collisions', rows.tolist())
 
-    def on_response(self, response: object) -> None:
-        """Show what came of a request, beside what the report printed."""
+    def on_response(self, response: Any) -> None:
+        """Show the response to a request, beside what the report printed."""
         content = json.loads(response.data)
         done = content['phase'] == Phase.DONE
         printed = self._printed.get(content['shot']) if done and content['as_printed'] else None
@@ -124,7 +129,7 @@ class View:
         if done:
             self.pages.tell('result', {**content, 'printed': printed}, keep=True)
 
-    def on_state(self, state: object) -> None:
+    def on_state(self, state: Any) -> None:
         """Show what goes on."""
         came = self._state is None
         if came and not self._bridge.is_matched():
@@ -137,7 +142,7 @@ class View:
             self._silence.cancel()
         self._silence = self._loop.call_later(1.0, self._miss, 1)
 
-    def on_table(self, table: object) -> None:
+    def on_table(self, table: Any) -> None:
         """Show the table."""
         self._table = table_from_json(table.data)
         self.pages.tell('table', asdict(self._table), keep=True)
@@ -180,7 +185,7 @@ class View:
             '"ros2 run pool_sim_ros sim_node", under the same ROS_DOMAIN_ID.'
         )
 
-    def _run(self, coroutine) -> None:
+    def _run(self, coroutine: Coroutine[Any, Any, None]) -> None:
         task = self._loop.create_task(coroutine)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)

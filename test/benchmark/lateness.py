@@ -8,7 +8,7 @@ import json
 import sys
 import time
 
-from pool_sim_ros.ros import sim_node
+from pool_sim_ros.cli import sim_node
 from pool_sim_ros.simulator.pacer import Pacer
 
 RATE = 60

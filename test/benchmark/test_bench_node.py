@@ -18,7 +18,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from geometry_msgs.msg import Twist, Vector3
-from ros_harness import Observer, Process, node_process, start_node
+from process_harness import Process, node_process, start_node
+from ros_harness import Observer
 from waiting import PATIENCE
 
 from pool_sim_ros.ros import interface

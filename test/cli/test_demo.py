@@ -2,7 +2,7 @@
 
 import io
 
-from ros_harness import Process
+from process_harness import Process
 
 from pool_sim_ros.cli import demo
 from pool_sim_ros.console.progress import ProgressLine
@@ -10,7 +10,7 @@ from pool_sim_ros.me212.log import published_final_positions
 
 
 def test_all_positions_equal_the_print(domain):
-    with Process('demo', '--speed', '0') as process:
+    with Process('cli.demo', '--speed', '0') as process:
         assert process.wait() == 0, process.stderr
         assert process.stdout.endswith('44 of 44 positions equal the print.\n')
         assert process.stdout.count('as printed') == 44 and 'NOT' not in process.stdout
@@ -44,6 +44,6 @@ def test_a_node_that_does_not_start_is_told(domain, monkeypatch, capsys):
 
 
 def test_help(domain):
-    with Process('demo', '--help') as process:
+    with Process('cli.demo', '--help') as process:
         assert process.wait() == 0
         assert '--speed' in process.stdout

@@ -8,13 +8,13 @@ import pytest
 
 pytest.importorskip('aiohttp', reason="aiohttp is missing: pip install 'pool_sim_ros[web]'")
 
-from ros_harness import Process  # noqa: E402
+from process_harness import Process  # noqa: E402
 from site_harness import talk  # noqa: E402
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_it_prints_the_address_of_a_page_that_plays_and_ends_both(domain, number):
-    with Process('play', '--port', '0') as both:
+    with Process('cli.play', '--port', '0') as both:
         both.wait_for('shows')
         address = re.search(r'http://\S+', both.stdout)[0]
 
@@ -34,6 +34,6 @@ def test_it_prints_the_address_of_a_page_that_plays_and_ends_both(domain, number
 
 
 def test_where_one_cannot_start_the_other_ends_too(domain):
-    with Process('play', '--port', '99999') as both:
+    with Process('cli.play', '--port', '99999') as both:
         assert both.wait() == 1
         assert '99999' in both.stderr

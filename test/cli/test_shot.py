@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 import pytest
-from ros_harness import Process, node_process
+from process_harness import Process, node_process
 
 from pool_sim_ros.me212.log import format_position, format_shot_head
 from pool_sim_ros.physics import report_table, simulate

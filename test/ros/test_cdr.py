@@ -1,10 +1,11 @@
 import numpy as np
+import plain_messages
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
 
-from pool_sim_ros.ros import cdr, messages
+from pool_sim_ros.ros import cdr
 from pool_sim_ros.simulator import COLLISION_COLUMNS, VELOCITY_COLUMNS
 
 NUMBERS = st.floats(width=64)
@@ -49,7 +50,7 @@ def test_poses_are_the_bytes_that_ros_makes(frame_id, radii, frames):
     positions = np.array([random_rows(seed, len(radii), 2) for _, seed in frames])
     written = writer.write(stamps, positions)
     for data, stamp, places in zip(written, stamps, positions, strict=True):
-        assert_same_bytes(data, messages.to_poses(frame_id, stamp, places, radii))
+        assert_same_bytes(data, plain_messages.to_poses(frame_id, stamp, places, radii))
 
 
 @given(st.integers(1, 50), st.lists(st.integers(0, 2**32), min_size=1, max_size=4))
@@ -57,12 +58,12 @@ def test_velocities_are_the_bytes_that_ros_makes(balls, seeds):
     writer = cdr.RowsWriter('ball', VELOCITY_COLUMNS)
     frames = np.array([random_rows(seed, balls, 2) for seed in seeds])
     for data, rows in zip(writer.write(frames), frames, strict=True):
-        assert_same_bytes(data, messages.to_velocities(rows))
+        assert_same_bytes(data, plain_messages.to_velocities(rows))
 
 
 def assert_written(writer, rows):
     [data] = writer.write(rows[np.newaxis])
-    assert_same_bytes(data, messages.to_collisions(rows))
+    assert_same_bytes(data, plain_messages.to_collisions(rows))
 
 
 @given(st.lists(st.tuples(st.integers(1, 30), st.integers(0, 2**32)), min_size=1, max_size=8))
@@ -81,7 +82,7 @@ def test_more_shapes_than_are_kept():
 @given(st.lists(STAMPS, min_size=1))
 def test_the_clock_is_the_bytes_that_ros_makes(stamps):
     assert cdr.clock_bytes(stamps) == [
-        serialize_message(messages.to_clock(stamp)) for stamp in stamps
+        serialize_message(plain_messages.to_clock(stamp)) for stamp in stamps
     ]
 
 

@@ -1,21 +1,17 @@
 """Driving the node: placing balls, diagnostics, several tables, record and replay over topics."""
 
-import hashlib
-
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import Point, Pose, PoseArray
 from parameter_files import CONFIG, from_file
+from process_harness import node_process, start_node
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile
-from ros_harness import Observer, Process, node_process, start_node
+from ros_harness import Observer
 
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.simulator import build_settings, values_from
-from pool_sim_ros.simulator.command_log import read_log
-from pool_sim_ros.simulator.replay import replay_frames
 from pool_sim_ros.simulator.table_json import table_from_json
 
 FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
@@ -232,90 +228,3 @@ def test_use_sim_time_does_not_stop_the_node_that_makes_the_time(ros, use_sim_ti
     done = observer.wait_for_phase(observer.ask(shot=3), 'done')
     shot = simulate(report_table(), done['velocity'])
     assert np.array_equal(list(done['final_positions'].values()), shot.final_positions)
-
-
-class RawReader:
-    """Keeps the bytes of the frames and the collisions, by topic."""
-
-    def __init__(self, ros, simulator=interface.NODE_NAME):
-        self._node = ros.node('raw')
-        self.heard = {'ball_poses': [], 'collisions': []}
-        self.subscriptions = [
-            self._node.create_subscription(
-                topic.type, topic.of(simulator), self.heard[topic.name].append,
-                QoSProfile(depth=20000), raw=True,
-            )
-            for topic in (interface.BALL_POSES, interface.COLLISIONS, interface.BALL_VELOCITIES)
-            if self.heard.setdefault(topic.name, []) is not None
-        ]  # fmt: skip
-        self.matched = lambda: all(s.get_publisher_count() for s in self.subscriptions)
-
-
-def test_a_session_is_replayed_with_the_same_bytes_on_the_topics(ros, tmp_path):
-    log = tmp_path / 'session.log'
-    reader = RawReader(ros)
-    with node_process(
-        '--ros-args',
-        '-p',
-        f'record:={log}',
-        '-p',
-        'real_time_factor:=10.0',
-        '-p',
-        'report_integrator:=event',
-    ) as process:
-        observer = Observer(ros).wait_for_match()
-        ros.spin_until(reader.matched, 'the reader')
-        for fields in ({'shot': 1}, {'velocity': [-3.3, 0.7]}, {'shot': 4}):
-            observer.wait_for_phase(observer.ask(**fields), 'done')
-        wanted = sum(len(frame.collisions) > 0 for frame in replay_frames(*read_log(log)))
-        ros.spin_until(lambda: len(reader.heard['collisions']) == wanted, 'all contacts')
-        process.interrupt()
-        assert process.wait() == 0
-    recorded = reader.heard
-
-    again = RawReader(ros, 'replayed')
-    with Process(
-        'cli.replay', str(log), '--speed', '20', '--wait', '--ros-args', '-r', '__node:=replayed'
-    ) as process:
-        ros.spin_until(
-            lambda: (
-                again.heard['ball_poses'][-1:] == recorded['ball_poses'][-1:]
-                and len(again.heard['collisions']) == wanted
-            ),
-            'the last frame and all contacts',
-        )
-        assert process.wait() == 0
-    with Process('cli.replay', str(log), '--digest') as process:
-        assert process.wait() == 0
-    contacts = recorded['collisions']
-    assert hashlib.sha256(b''.join(contacts)).hexdigest() + '  collisions' in process.stdout
-    assert again.heard['collisions'] == contacts != []
-    # A slow machine may lose frames on the way to a reader: compare those that were heard twice.
-    first, second = by_stamp(recorded['ball_poses']), by_stamp(again.heard['ball_poses'])
-    both = first.keys() & second.keys()
-    assert all(first[stamp] == second[stamp] for stamp in both)
-    assert len(both) > 150  # of the 250 or so in which balls roll
-
-
-def by_stamp(frames):
-    """Return serialized poses by the bytes of their stamp, which follow a head of four."""
-    return {frame[4:12]: frame for frame in frames}
-
-
-def test_replay_prints_digests_and_refuses_in_one_line(domain, tmp_path):
-    log = tmp_path / 'none.log'
-    with Process('cli.replay', str(log)) as process:
-        assert process.wait() == 1
-        assert process.stderr == f'replay: {log} cannot be read: No such file or directory\n'
-    with Process('cli.replay', '--help') as process:
-        assert process.wait() == 0 and '--speed' in process.stdout
-
-
-def test_a_log_that_exists_is_refused_in_one_line(domain, tmp_path):
-    log = tmp_path / 'session.log'
-    log.write_text('precious')
-    with start_node(record=log) as process:
-        assert process.wait() == 1
-        assert 'record' in process.stderr and str(log) in process.stderr
-        assert process.stderr.count('\n') == 1
-    assert log.read_text() == 'precious'

@@ -5,12 +5,14 @@ import struct
 import subprocess
 import sys
 import uuid
+from functools import cache
 from pathlib import Path
 
 import pytest
 from geometry_msgs.msg import Point, Pose, PoseArray, Quaternion, Twist, Vector3
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from process_harness import node_process
 from rcl_interfaces.srv import (
     DescribeParameters,
     GetParameters,
@@ -21,12 +23,14 @@ from rcl_interfaces.srv import (
 )
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
-from ros_harness import Observer, Ros, node_process
+from ros_harness import Observer, Ros
 from std_msgs.msg import String
 from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
 
 from pool_sim_ros.ros import interface
 from pool_sim_ros.simulator import PARAMETERS
+
+GARBAGE = Path(__file__).parents[1] / 'support' / 'garbage_requests.py'
 
 
 @pytest.fixture(scope='module')
@@ -109,7 +113,7 @@ def test_garbage_in_place_of_requests_to_services_ends_nothing(victim, seed):
     sender = subprocess.Popen(
         [
             sys.executable,
-            Path(__file__).parents[1] / 'support' / 'garbage_requests.py',
+            GARBAGE,
             str(seed),
             *names,
         ]
@@ -189,10 +193,6 @@ def test_no_parameter_value_ends_anything(victim, name, value):
     is_served(observer)
 
 
-GARBAGE = Path(__file__).parents[1] / 'support' / 'garbage_requests.py'
-
-
-def _parameter_client(node, _made={}):  # noqa: B006 - one client for all
-    if node not in _made:
-        _made[node] = node.create_client(SetParameters, '/pool_sim/set_parameters')
-    return _made[node]
+@cache
+def _parameter_client(node):
+    return node.create_client(SetParameters, '/pool_sim/set_parameters')

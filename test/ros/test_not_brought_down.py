@@ -16,7 +16,8 @@ from pathlib import Path
 
 import pytest
 from geometry_msgs.msg import Twist, Vector3
-from ros_harness import Observer, Process, Ros, node_process
+from process_harness import Process, node_process
+from ros_harness import Observer, Ros
 from std_msgs.msg import String
 from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
 

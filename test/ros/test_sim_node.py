@@ -6,15 +6,13 @@ import uuid
 import numpy as np
 import pytest
 from geometry_msgs.msg import Twist, Vector3
-from rcl_interfaces.msg import ParameterType
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from ros_harness import Observer
 from waiting import PATIENCE
 
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.simulator import PARAMETERS, Change, ParameterError
+from pool_sim_ros.simulator import ParameterError
 from pool_sim_ros.simulator.table_json import table_from_json
 
 FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
@@ -22,41 +20,6 @@ FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
 
 def twist(x=0.0, y=0.0, z=0.0, angular_z=0.0):
     return Twist(linear=Vector3(x=x, y=y, z=z), angular=Vector3(z=angular_z))
-
-
-def test_interface_is_that_of_the_design(ros):
-    ros.sim_node('table_1', publish_clock=True)
-    node = ros.node()
-    expected = {
-        '/table_1/cue_velocity': ('geometry_msgs/msg/Twist', False, 1000),
-        '/table_1/shot/request': ('std_msgs/msg/String', False, 1000),
-        '/table_1/shot/response': ('std_msgs/msg/String', True, 1000),
-        '/table_1/ball_poses': ('geometry_msgs/msg/PoseArray', False, 10),
-        '/table_1/ball_velocities': ('std_msgs/msg/Float64MultiArray', False, 10),
-        '/table_1/collisions': ('std_msgs/msg/Float64MultiArray', False, 1000),
-        '/table_1/state': ('std_msgs/msg/String', True, 1),
-        '/table_1/table': ('std_msgs/msg/String', True, 1),
-        '/table_1/markers': ('visualization_msgs/msg/MarkerArray', True, 10),
-        '/table_1/set_ball_poses': ('geometry_msgs/msg/PoseArray', False, 10),
-        '/diagnostics': ('diagnostic_msgs/msg/DiagnosticArray', False, 10),
-        '/clock': ('rosgraph_msgs/msg/Clock', False, 1),
-    }
-    declared = [item for item in vars(interface).values() if isinstance(item, interface.Topic)]
-    topics = {topic.of('/table_1'): topic for topic in declared}
-    assert set(topics) == set(expected)
-    ros.spin_until(lambda: node.count_publishers('/clock') > 0, 'the clock')
-    for name, (kind, latched, depth) in expected.items():
-        if name.endswith(('cue_velocity', 'request', 'set_ball_poses')):
-            [info] = node.get_subscriptions_info_by_topic(name)
-        else:
-            info, *_ = node.get_publishers_info_by_topic(name)  # ~/markers has two
-        assert info.topic_type == kind
-        assert info.qos_profile.reliability is ReliabilityPolicy.RELIABLE
-        assert (info.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL) == latched
-        assert topics[name].qos.depth == depth
-    services = dict(node.get_service_names_and_types_by_node('table_1', '/'))
-    assert services['/table_1/reset'] == services['/table_1/step'] == ['std_srvs/srv/Trigger']
-    assert services['/table_1/set_paused'] == ['std_srvs/srv/SetBool']
 
 
 def test_a_strike_through_either_door_is_played_to_the_end_that_the_physics_gives(ros):
@@ -258,22 +221,6 @@ def test_two_tables_do_not_hear_each_other(ros):
     assert {r['id'] for r in right.responses} == {other}
 
 
-def test_every_parameter_is_declared_with_a_description_and_a_range(ros):
-    node = ros.sim_node()
-    for name, spec in PARAMETERS.items():
-        descriptor = node.describe_parameter(name)
-        assert spec.doc in descriptor.description
-        assert descriptor.read_only == (spec.change is Change.NEVER)
-        value = node.get_parameter(name)
-        if value.type_ is Parameter.Type.DOUBLE:
-            [bounds] = descriptor.floating_point_range
-            assert bounds.from_value <= value.value <= bounds.to_value
-        elif value.type_ is Parameter.Type.INTEGER:
-            [bounds] = descriptor.integer_range
-            assert bounds.from_value <= value.value <= bounds.to_value
-        assert descriptor.type != ParameterType.PARAMETER_NOT_SET
-
-
 def test_a_parameter_that_may_change_counts_from_the_next_strike(ros):
     node = ros.sim_node(**FAST)
     observer = Observer(ros).wait_for_match()
@@ -289,31 +236,6 @@ def test_a_parameter_that_may_change_counts_from_the_next_strike(ros):
     assert np.array_equal(list(done['final_positions'].values()), shot.final_positions)
     second = observer.ask(velocity=[6.0, 0.0])
     assert observer.wait_for_phase(second, 'rejected')['code'] == 'TOO_FAST'
-
-
-@pytest.mark.parametrize(
-    ('name', 'value'),
-    [
-        ('table.length', 3.0),
-        ('balls.labels', ['a']),
-        ('publish_rate', 30),
-        ('frame_id', 'map'),
-        ('table.e_cue_ball', 1.5),
-        ('table.e_cue_ball', 'high'),
-        ('table.mu_ball_surface', 0.0),
-        ('table.ball_friction', 'none'),
-        ('integrator', 'euler'),
-        ('real_time_factor', -1.0),
-        ('real_time_factor', float('nan')),
-        ('step_ticks', 0),
-    ],
-)
-def test_a_parameter_that_may_not_change_or_not_to_that_is_refused(ros, name, value):
-    node = ros.sim_node()
-    before = node.get_parameter(name).value
-    [result] = node.set_parameters([Parameter(name, value=value)])
-    assert not result.successful and result.reason
-    assert node.get_parameter(name).value == before
 
 
 def test_parameters_that_make_no_table_leave_no_node_behind(ros):

@@ -7,7 +7,7 @@ import re
 
 import aiohttp
 import numpy as np
-from ros_harness import Process, node_process
+from process_harness import Process, node_process
 from waiting import PATIENCE
 
 

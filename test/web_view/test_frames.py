@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from plain_messages import to_poses
 from rclpy.serialization import serialize_message
 
-from pool_sim_ros.ros import messages
 from pool_sim_ros.web_view.frames import frame_positions, page_frame
 
 
@@ -12,7 +12,7 @@ from pool_sim_ros.web_view.frames import frame_positions, page_frame
 @pytest.mark.parametrize('count', [0, 1, 2, 11])
 def test_a_frame_has_the_stamp_and_the_places(frame_id, count):
     positions = np.random.default_rng(count).uniform(-1, 3, (count, 2))
-    message = messages.to_poses(frame_id, 7_016_666_666, positions, [0.05] * count)
+    message = to_poses(frame_id, 7_016_666_666, positions, [0.05] * count)
     frame = page_frame(serialize_message(message))
     assert np.frombuffer(frame, '<f8')[0] == pytest.approx(7.016666666, abs=1e-12)
     assert np.array_equal(frame_positions(frame), positions)
@@ -20,13 +20,13 @@ def test_a_frame_has_the_stamp_and_the_places(frame_id, count):
 
 @pytest.mark.parametrize('cut', [0, 1, 3, 10, 30, 200])
 def test_bytes_that_are_no_poses_are_refused(cut):
-    message = messages.to_poses('table', 1, np.ones((11, 2)), [0.05] * 11)
+    message = to_poses('table', 1, np.ones((11, 2)), [0.05] * 11)
     with pytest.raises(ValueError, match='PoseArray'):
         page_frame(serialize_message(message)[:cut])
 
 
 def test_a_count_that_the_bytes_do_not_hold_is_refused():
-    message = bytearray(serialize_message(messages.to_poses('table', 1, np.ones((1, 2)), [0.05])))
+    message = bytearray(serialize_message(to_poses('table', 1, np.ones((1, 2)), [0.05])))
     count = 4 + 12 + 8  # head; stamp and length; "table", its end and the padding
     assert message[count] == 1
     message[count + 3] = 0xFF

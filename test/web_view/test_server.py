@@ -2,7 +2,6 @@
 
 import asyncio
 import re
-import signal
 import socket
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 
 aiohttp = pytest.importorskip('aiohttp', reason="pip install 'pool_sim_ros[web]'")
 
-from ros_harness import Process  # noqa: E402
+from plain_messages import to_collisions, to_poses  # noqa: E402
 from site_harness import simulator, talk, web_view  # noqa: E402
 from yarl import URL  # noqa: E402
 
@@ -218,8 +217,8 @@ def test_topics_that_make_no_sense_are_left_out(played, ros):
         (interface.STATE, messages.to_string('{')),
         (interface.TABLE, messages.to_string('{"length": 1}')),
         (interface.SHOT_RESPONSE, messages.to_string('3')),
-        (interface.COLLISIONS, messages.to_collisions(np.full((1, 10), np.nan))),
-        (interface.BALL_POSES, messages.to_poses('table', 1, np.zeros((3, 2)), [0.05] * 3)),
+        (interface.COLLISIONS, to_collisions(np.full((1, 10), np.nan))),
+        (interface.BALL_POSES, to_poses('table', 1, np.zeros((3, 2)), [0.05] * 3)),
     ]
     publishers = [
         node.create_publisher(topic.type, topic.of('/shown'), topic.qos) for topic, _ in nonsense
@@ -236,40 +235,6 @@ def test_topics_that_make_no_sense_are_left_out(played, ros):
 
     (table,) = asyncio.run(attempt())
     assert [ball['label'] for ball in table['balls']] == list(TABLE.labels)
-
-
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_it_ends_when_told_to_also_with_a_page_open(domain, number):
-    with web_view('--node', '/nobody') as site:
-
-        async def attempt():
-            async with talk(site.address) as page:
-                await page.hear('simulator')
-                site.signal(number)
-                return await page.closed()
-
-        assert asyncio.run(attempt()) == aiohttp.WSCloseCode.GOING_AWAY
-        assert site.wait() == 0 and site.stderr == ''
-
-
-def test_a_port_that_is_taken_is_one_clear_line_and_status_1(alone):
-    port = alone.address.rsplit(':', 1)[1]
-    with Process('web_view', '--port', port) as second:
-        assert second.wait() == 1
-        assert port in second.stderr and second.stderr.count('\n') == 1
-
-
-@pytest.mark.parametrize('args', [['--port', 'x'], ['--port', '70000'], ['more']])
-def test_wrong_arguments_are_told_with_status_2(domain, args):
-    with Process('web_view', *args) as process:
-        assert process.wait() == 2
-        assert 'Traceback' not in process.stderr
-
-
-def test_help_names_every_option(domain):
-    with Process('web_view', '--help') as process:
-        assert process.wait() == 0
-        assert all(option in process.stdout for option in ('--host', '--port', '--node'))
 
 
 def test_the_names_in_the_page_are_those_of_its_elements(alone):

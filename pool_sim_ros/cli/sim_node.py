@@ -1,0 +1,62 @@
+"""The command `sim_node`: run the node until SIGINT or SIGTERM."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+
+from pool_sim_ros.ros import SimNode, interface, leave_at_once, ros_command, shut_down_on_signals
+from pool_sim_ros.simulator import PARAMETERS, ParameterError
+
+SHUTDOWN_PATIENCE = 0.1
+"""Seconds to wait for the end of a shot's computation before the process ends."""
+
+
+def _parser() -> argparse.ArgumentParser:
+    endpoints = [item for item in vars(interface).values() if isinstance(item, interface.Endpoint)]
+    epilog = [
+        'ROS arguments: --ros-args --params-file FILE -p NAME:=VALUE -r __node:=NAME -r __ns:=/NS',
+        '',
+        'topics and services:',
+        *(f'  {endpoint.private}: {endpoint.doc}' for endpoint in endpoints),
+        '',
+        'parameters:',
+        *(f'  {spec.name}: {spec.doc} ({spec.change.value})' for spec in PARAMETERS.values()),
+    ]
+    return argparse.ArgumentParser(
+        prog='sim_node',
+        description='A pool table on ROS topics. Without parameters: the table of the report.',
+        epilog='\n'.join(epilog),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+
+
+@ros_command('sim_node', _parser, ParameterError)
+def main(context: Context, _: argparse.Namespace) -> int:
+    """Run the node; return 1 if one of its threads failed."""
+    shut_down_on_signals(context)
+    node = None
+    try:
+        node = SimNode(context=context)
+        executor = SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        executor.spin()
+    except Exception:
+        if context.ok():  # else the shutdown overtook whatever was going on
+            raise
+    finally:
+        idle = node is None or node.runner.stop(SHUTDOWN_PATIENCE)
+        if node is not None:
+            node.destroy_node()
+        context.try_shutdown()
+    status = int(node is not None and node.failed)
+    if not idle:
+        leave_at_once(status)
+    return status
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,47 @@
+"""The command `web_view`: how it starts, fails and stops."""
+
+import asyncio
+import signal
+import socket
+
+import pytest
+
+aiohttp = pytest.importorskip('aiohttp', reason="pip install 'pool_sim_ros[web]'")
+
+from process_harness import Process  # noqa: E402
+from site_harness import talk, web_view  # noqa: E402
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_it_ends_when_told_to_also_with_a_page_open(domain, number):
+    with web_view('--node', '/nobody') as site:
+
+        async def attempt():
+            async with talk(site.address) as page:
+                await page.hear('simulator')
+                site.signal(number)
+                return await page.closed()
+
+        assert asyncio.run(attempt()) == aiohttp.WSCloseCode.GOING_AWAY
+        assert site.wait() == 0 and site.stderr == ''
+
+
+def test_a_port_that_is_taken_is_one_clear_line_and_status_1(domain):
+    with socket.create_server(('127.0.0.1', 0)) as taken:
+        port = str(taken.getsockname()[1])
+        with Process('web_view', '--port', port) as process:
+            assert process.wait() == 1
+            assert port in process.stderr and process.stderr.count('\n') == 1
+
+
+@pytest.mark.parametrize('args', [['--port', 'x'], ['--port', '70000'], ['more']])
+def test_wrong_arguments_are_told_with_status_2(domain, args):
+    with Process('web_view', *args) as process:
+        assert process.wait() == 2
+        assert 'Traceback' not in process.stderr
+
+
+def test_help_names_every_option(domain):
+    with Process('web_view', '--help') as process:
+        assert process.wait() == 0
+        assert all(option in process.stdout for option in ('--host', '--port', '--node'))

@@ -1,0 +1,286 @@
+"""What the pages are shown and what they may ask for, with a bridge that leads nowhere."""
+
+import asyncio
+import json
+
+import numpy as np
+import pytest
+from plain_messages import to_collisions, to_poses
+from rclpy.serialization import serialize_message
+from waiting import PATIENCE
+
+from pool_sim_ros.me212 import published_final_positions
+from pool_sim_ros.physics import compile_kernels, report_table
+from pool_sim_ros.ros import interface, messages
+from pool_sim_ros.simulator import table_to_json
+from pool_sim_ros.web_view import view as module
+from pool_sim_ros.web_view.bridge import NoAnswerError
+from pool_sim_ros.web_view.view import View
+
+TABLE = report_table()
+RESTING = {'paused': False, 'moving': False, 'computing': False, 'tick': 3}
+
+
+class FakeBridge:
+    """Keeps what it is asked for, and answers as it is told to."""
+
+    simulator = '/pool_sim'
+
+    def __init__(self, context, simulator, listener):
+        self.matched = True
+        self.poses = None
+        self.asked = []
+        self.answer = True, ''
+        self.complaints = []
+
+    def is_matched(self):
+        return self.matched
+
+    def latest_poses(self):
+        poses, self.poses = self.poses, None
+        return poses
+
+    def request(self, **fields):
+        self.asked.append(fields)
+
+    async def call(self, service, **fields):
+        self.asked.append((service.name, fields))
+        return self.answer
+
+    async def set_parameter(self, name, value):
+        self.asked.append((name, value))
+        return self.answer
+
+    def left_out(self, error):
+        self.complaints.append(error)
+
+    def close(self):
+        self.closed = True
+
+
+class Site:
+    """A view, its bridge and a page that is open from the beginning."""
+
+    def __init__(self):
+        self.view = View(None, 'pool_sim')
+        self.bridge = self.view._bridge
+        self.page = self.view.pages.open()
+
+    async def obey(self, **fields):
+        await self.view.obey(self.page, json.dumps(fields))
+
+    def state(self, **changes):
+        self.view.on_state(messages.to_json_string(RESTING | changes))
+
+    def respond(self, **changes):
+        response = {'phase': 'done', 'shot': 2, 'as_printed': True}
+        self.view.on_response(messages.to_json_string(response | changes))
+
+    async def heard(self, page=None):
+        """Return all that a page is to be sent, by kind."""
+        found = {}
+        while True:
+            try:
+                item = await asyncio.wait_for((page or self.page).next(), 0.05)
+            except asyncio.TimeoutError:
+                return found
+            if isinstance(item, bytes):
+                found.setdefault('frame', []).append(np.frombuffer(item, '<f8'))
+            else:
+                fields = json.loads(item)
+                found.setdefault(fields['kind'], []).append(fields['content'])
+
+
+@pytest.fixture(autouse=True)
+def no_ros(monkeypatch):
+    monkeypatch.setattr(module, 'Bridge', FakeBridge)
+
+
+def on_site(use):
+    async def within():
+        site = Site()
+        try:
+            return await asyncio.wait_for(use(site), PATIENCE)
+        finally:
+            site.view.close()
+            assert site.bridge.closed
+
+    return asyncio.run(within())
+
+
+def test_without_a_simulator_the_pages_are_told_and_can_ask_for_nothing():
+    async def use(site):
+        await site.obey(do='shot', number=1)
+        return site.bridge.asked, await site.heard()
+
+    asked, heard = on_site(use)
+    assert asked == []
+    [told], [problem] = heard['simulator'], heard['problem']
+    assert told == {'name': '/pool_sim', 'problem': problem}
+    assert 'No simulator answers as /pool_sim' in problem
+
+
+def test_a_simulator_is_there_once_it_hears_too():
+    async def use(site):
+        site.bridge.matched = False
+        site.state()
+        before = await site.heard()
+        site.bridge.matched = True
+        site.state()
+        return before, await site.heard()
+
+    before, after = on_site(use)
+    assert 'state' not in before
+    assert after['state'] == [RESTING]
+    assert after['simulator'] == [{'name': '/pool_sim', 'problem': None}]
+
+
+@pytest.mark.parametrize(
+    ('wish', 'asked'),
+    [
+        ({'do': 'shot', 'number': 3}, {'shot': 3}),
+        ({'do': 'strike', 'velocity': [-4.0, 0.5]}, {'velocity': (-4.0, 0.5)}),
+        ({'do': 'pause', 'paused': True}, (interface.SET_PAUSED.name, {'data': True})),
+        ({'do': 'step'}, (interface.STEP.name, {})),
+        ({'do': 'reset'}, (interface.RESET.name, {})),
+        ({'do': 'speed', 'factor': 2}, ('real_time_factor', 2.0)),
+    ],
+)
+def test_a_wish_is_passed_on(wish, asked):
+    async def use(site):
+        site.state()
+        await site.obey(**wish)
+        return site.bridge.asked, await site.heard()
+
+    passed, heard = on_site(use)
+    assert passed == [asked] and 'problem' not in heard
+
+
+def test_a_wish_that_is_refused_or_makes_no_sense_is_told_to_its_page_alone():
+    async def use(site):
+        site.state()
+        other = site.view.pages.open()
+        site.bridge.answer = False, 'only a paused table can be stepped'
+        await site.obey(do='step')
+        await site.obey(do='dance')
+
+        async def silent(service):
+            raise NoAnswerError('/pool_sim does not answer')
+
+        site.bridge.call = silent
+        await site.obey(do='reset')
+        return await site.heard(), await site.heard(other)
+
+    heard, other = on_site(use)
+    refused, nonsense, unanswered = heard['problem']
+    assert refused == 'only a paused table can be stepped'
+    assert 'do must be one of' in nonsense
+    assert unanswered == '/pool_sim does not answer'
+    assert 'problem' not in other
+
+
+def test_the_end_of_a_shot_of_the_report_comes_with_what_was_printed_also_for_late_pages():
+    async def use(site):
+        site.respond()
+        return await site.heard(), await site.heard(site.view.pages.open())
+
+    heard, late = on_site(use)
+    printed = {k: list(place) for k, place in published_final_positions()[2].items()}
+    assert heard['response'] == heard['result'] == late['result']
+    assert heard['result'][0]['printed'] == printed
+    assert 'response' not in late
+
+
+@pytest.mark.parametrize('changes', [{'as_printed': False}, {'shot': None}, {'phase': 'accepted'}])
+def test_any_other_response_comes_without(changes):
+    async def use(site):
+        site.respond(**changes)
+        return await site.heard()
+
+    heard = on_site(use)
+    assert heard['response'][0]['printed'] is None
+    assert ('result' in heard) == (changes.get('phase') is None)
+
+
+def test_collisions_are_shown_unless_they_are_not_what_they_should_be():
+    rows = np.arange(20.0).reshape(2, 10)
+
+    async def use(site):
+        site.view.on_collisions(to_collisions(rows))
+        site.view.on_collisions(to_collisions(np.full((1, 10), np.nan)))
+        return await site.heard()
+
+    assert on_site(use)['collisions'] == [rows.tolist()]
+
+
+def test_a_simulator_that_falls_silent_is_gone_and_so_is_what_it_showed(monkeypatch):
+    monkeypatch.setattr(module, 'SILENCE', 1)
+
+    async def use(site):
+        site.state()
+        site.respond()
+        await site.heard()
+        heard = {}
+        while 'simulator' not in heard:
+            heard |= await site.heard()
+        return heard, await site.heard(site.view.pages.open())
+
+    heard, late = on_site(use)
+    assert 'No simulator answers' in heard['simulator'][0]['problem']
+    assert set(late) == {'simulator'}
+
+
+async def with_everything(site, moving=False):
+    """Show the site a table, its balls and its state, and wait until it can predict."""
+    site.state(moving=moving)
+    site.view.on_table(messages.to_string(table_to_json(TABLE)))
+    poses = to_poses('table', 1_500_000_000, TABLE.positions, TABLE.radii.tolist())
+    site.bridge.poses = serialize_message(poses)
+    heard = {}
+    while not {'predicts', 'frame', 'table'} <= set(heard):
+        heard |= await site.heard()
+    return heard
+
+
+def test_table_and_frames_are_shown():
+    async def use(site):
+        return await with_everything(site)
+
+    heard = on_site(use)
+    assert heard['frame'][0][0] == 1.5
+    assert np.array_equal(heard['frame'][0][1:], TABLE.positions.ravel())
+    assert [ball['label'] for ball in heard['table'][0]['balls']] == list(TABLE.labels)
+
+
+def test_poses_that_are_none_are_left_out():
+    async def use(site):
+        site.bridge.poses = b'\0\1'
+        while not site.bridge.complaints:
+            await asyncio.sleep(0.005)
+        return await site.heard()
+
+    assert 'frame' not in on_site(use)
+
+
+def test_who_aims_is_told_the_paths():
+    compile_kernels(TABLE)
+
+    async def use(site):
+        await with_everything(site)
+        await site.obey(do='aim', velocity=[-4.0, 0.0])
+        await site.obey(do='aim', velocity=[0.0, 0.0])
+        return await site.heard(), site.bridge.asked
+
+    heard, asked = on_site(use)
+    prediction, nothing = heard['prediction']
+    assert prediction['velocity'] == [-4.0, 0.0] and prediction['paths'][0]['ball'] == 0
+    assert nothing is None and asked == []
+
+
+def test_while_balls_move_there_is_nothing_to_predict_from():
+    async def use(site):
+        await with_everything(site, moving=True)
+        await site.obey(do='aim', velocity=[-4.0, 0.0])
+        return (await site.heard())['prediction']
+
+    assert on_site(use) == [None]
