@@ -22,9 +22,8 @@ def random_layouts(table, count, seed=4):
     """Return layouts, (count, n, 2) in m, each with all balls anywhere that they may lie."""
     rng = np.random.default_rng(seed)
     radii, size = table.radii, np.array([table.length, table.width])
-    layouts = rng.uniform(
-        radii[:, np.newaxis], size - radii[:, np.newaxis], (count, *radii.shape, 2)
-    )
+    margin = radii[:, np.newaxis]
+    layouts = rng.uniform(margin, size - margin, (count, len(radii), 2))
     while True:
         gaps = np.linalg.norm(layouts[:, :, np.newaxis] - layouts[:, np.newaxis], axis=3)
         gaps[:, np.arange(len(radii)), np.arange(len(radii))] = np.inf
