@@ -54,11 +54,10 @@ def test_in_turn(results):
             seconds[what].append(time.thread_time() - start)
     for what, times in seconds.items():
         results.add(SECTION, what, times[1:], per_second(SHOTS, 'shots'), key=what)
-    targets = {'a layout for each shot': '0.95 times', 'all events kept': '0.7 times'}
-    for what in list(calls)[1:]:
-        results.ratio(
-            SECTION, f'{what}, beside one layout', 'one layout', what, targets.get(what, '')
-        )
+    # The other layouts make other shots, which are no measure of what layouts cost.
+    for what, target in (('a layout for each shot', '0.95'), ('all events kept', '0.7')):
+        ratio = f'{what}, speed beside one layout'
+        results.ratio(SECTION, ratio, 'one layout', what, f'{target} times')
 
 
 def test_a_call_of_one_shot(results):
