@@ -18,14 +18,16 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
+    from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
     from pool_sim_ros.physics.shots import (
         INTEGRATORS,
         REPORT_TIME_SLICE,
+        Integrator,
         compile_kernels,
         simulate,
         simulate_many,
     )
-    from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, Ball, Table
+    from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, Ball, BallFriction, Table
     from pool_sim_ros.physics.trajectory import Trajectory
     from pool_sim_ros.physics.validation import check_layout
 else:
@@ -34,8 +36,12 @@ else:
         {
             'BALL_FRICTION_LAWS': 'table',
             'Ball': 'table',
+            'BallFriction': 'table',
             'EventKind': 'log',
             'INTEGRATORS': 'shots',
+            'Integrator': 'shots',
+            'Outcomes': 'outcomes',
+            'ShotTooLong': 'outcomes',
             'REPORT_TIME_SLICE': 'shots',
             'Table': 'table',
             'Trajectory': 'trajectory',
@@ -55,7 +61,11 @@ __all__ = [
     'INTEGRATORS',
     'REPORT_TIME_SLICE',
     'Ball',
+    'BallFriction',
     'EventKind',
+    'Integrator',
+    'Outcomes',
+    'ShotTooLong',
     'Table',
     'Trajectory',
     'TwoBallCollision',

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics import Table, Trajectory, simulate
+from pool_sim_ros.physics import Integrator, Table, Trajectory, simulate
 from pool_sim_ros.simulator.settings import Settings
 
 
@@ -32,7 +32,7 @@ class Job:
     table: Table
     velocity: tuple[float, float]
     positions: NDArray[np.float64]
-    integrator: str
+    integrator: Integrator
     time_slice: float
     until: float
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pool_sim_ros.me212 import deviations
-from pool_sim_ros.physics import Ball, Table
+from pool_sim_ros.physics import Ball, Integrator, Table
 from pool_sim_ros.simulator.parameter_table import BALL_LISTS, PARAMETERS, ParameterValue
 from pool_sim_ros.simulator.parameter_values import ParameterError
 
@@ -22,8 +22,8 @@ class Settings:
     """All parameters, checked: see `PARAMETERS` for what each means."""
 
     table: Table
-    integrator: str
-    report_integrator: str
+    integrator: Integrator
+    report_integrator: Integrator
     time_slice: float
     max_cue_speed: float
     max_shot_duration: float
