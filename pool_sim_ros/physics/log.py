@@ -102,7 +102,7 @@ def log_event(
     t: float,
     kind: int,
     sides: tuple[int, int],
-    place: tuple[float, float],
+    point: tuple[float, float],
     normal: tuple[float, float],
     speed: float,
 ) -> None:
@@ -113,7 +113,7 @@ def log_event(
         event.t = t
         event.kind = kind
         event.a, event.b = sides
-        event.x, event.y = place
+        event.x, event.y = point
         event.nx, event.ny = normal
         event.speed = speed
     log.counts[N_EVENTS] = count + 1

@@ -24,7 +24,7 @@ GRAVITIES = (1e-6, 1e6)
 MAX_FRICTION = 1e3
 MIN_DECELERATION = 1e-9
 """Ranges in SI units, far beyond any table: within them no calculation here overflows, and a
-rounding error of a place stays well below `validation.OVERLAP`."""
+rounding error of a position stays well below `validation.OVERLAP`."""
 
 
 @dataclass(frozen=True)

@@ -206,8 +206,8 @@ def run(state: Slices, last: int, max_events: int) -> int:
                 move(state, i)
                 if was_moving and state.v[i, 0] == 0.0 and state.v[i, 1] == 0.0:
                     state.changed[i] = True
-                    place = state.x[i, 0], state.x[i, 1]
-                    log_event(log, now, STOP, (i, -1), place, (0.0, 0.0), 0.0)
+                    position = state.x[i, 0], state.x[i, 1]
+                    log_event(log, now, STOP, (i, -1), position, (0.0, 0.0), 0.0)
         for i in range(n):
             if state.moving[i]:
                 meet_cushions(state, i, now)
@@ -257,22 +257,22 @@ def meet_cushions(state: Slices, i: int, now: float) -> None:
     boundary = table.boundary
     for axis in range(2):
         far = (boundary.length if axis == 0 else boundary.width) - radius
-        place = state.x[i, axis]
-        if not (place > far or place < radius):
+        coordinate = state.x[i, axis]
+        if not (coordinate > far or coordinate < radius):
             continue
         old = state.v[i, axis]
         other = state.v[i, 1 - axis]
         state.v[i, axis] = -(old * table.e_ball_cushion)
-        state.x[i, axis] = min(max(place, radius), far)
+        state.x[i, axis] = min(max(coordinate, radius), far)
         after = other - sign(other) * (table.mu_ball_cushion * abs(state.v[i, axis] - old))
         state.v[i, 1 - axis] = after if sign(after) == sign(other) else 0.0
         state.changed[i] = True
-        high = place > far
+        high = coordinate > far
         into = 1.0 if high else -1.0
         nx, ny = (into, 0.0) if axis == 0 else (0.0, into)
-        place = state.x[i, 0] + nx * radius, state.x[i, 1] + ny * radius
+        point = state.x[i, 0] + nx * radius, state.x[i, 1] + ny * radius
         cushion = 2 * axis + (1 if high else 0)
-        log_event(state.log, now, CUSHION, (i, cushion), place, (nx, ny), into * old)
+        log_event(state.log, now, CUSHION, (i, cushion), point, (nx, ny), into * old)
 
 
 @kernel
@@ -350,8 +350,8 @@ def collide(state: Slices, a: int, b: int, now: float) -> None:
     else:
         new_a_t = report_friction(a_t, b_t, a_n - new_a_n, table.mu_ball_ball)
         new_b_t = report_friction(b_t, a_t, b_n - new_b_n, table.mu_ball_ball)
-    place = state.x[a, 0] + cos * balls[a].radius, state.x[a, 1] + sin * balls[a].radius
-    log_event(state.log, now, BALL_BALL, (a, b), place, (cos, sin), a_n - b_n)
+    point = state.x[a, 0] + cos * balls[a].radius, state.x[a, 1] + sin * balls[a].radius
+    log_event(state.log, now, BALL_BALL, (a, b), point, (cos, sin), a_n - b_n)
     log_hit(state.log, a, b, table.cue_ball)
     cos, sin = math.cos(-angle), math.sin(-angle)
     state.v[a, 0] = new_a_n * cos + new_a_t * sin
@@ -368,19 +368,19 @@ def log_motion(state: Slices, i: int, now: float) -> None:
     vx, vy = state.v[i, 0], state.v[i, 1]
     speed = math.sqrt(vx * vx + vy * vy)
     deceleration = state.table.deceleration
-    place = state.x[i, 0], state.x[i, 1]
+    position = state.x[i, 0], state.x[i, 1]
     rest = state.rest[i]
     if speed > 0.0:
         slowing = deceleration / speed
-        log_segment(state.log, i, now, place, (vx, vy), (-slowing * vx, -slowing * vy))
+        log_segment(state.log, i, now, position, (vx, vy), (-slowing * vx, -slowing * vy))
         lasts = speed / deceleration if deceleration > 0.0 else np.inf
         rest[0] = now + lasts
-        rest[1], rest[2] = place[0] + 0.5 * vx * lasts, place[1] + 0.5 * vy * lasts
+        rest[1], rest[2] = position[0] + 0.5 * vx * lasts, position[1] + 0.5 * vy * lasts
         return
     if rest[0] < now:
         # The parabola ends within the slice: beyond its end it would turn back.
         log_segment(state.log, i, rest[0], (rest[1], rest[2]), (0.0, 0.0), (0.0, 0.0))
-    log_segment(state.log, i, now, place, (0.0, 0.0), (0.0, 0.0))
+    log_segment(state.log, i, now, position, (0.0, 0.0), (0.0, 0.0))
     rest[0] = np.inf
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.me212 import cue_velocity
-from pool_sim_ros.physics import Trajectory, check_layout
+from pool_sim_ros.physics import ShotTooLong, Trajectory, check_layout
 from pool_sim_ros.simulator import responses
 from pool_sim_ros.simulator.command_log import CommandLog
 from pool_sim_ros.simulator.frame import Block, Frame
@@ -160,7 +160,8 @@ class Simulation:
         if isinstance(result, Exception):
             self._playback.abandon()
             reason = f'the shot could not be computed: {result}'
-            return [self._preempt(shot, Code.FAILED, reason)]
+            code = Code.TOO_LONG if isinstance(result, ShotTooLong) else Code.FAILED
+            return [self._preempt(shot, code, reason)]
         if not result.complete:
             self._playback.abandon()
             limit = f'max_shot_duration, {job.until:g} s'

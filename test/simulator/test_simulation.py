@@ -7,7 +7,7 @@ import pytest
 from fakes import Glide
 
 from pool_sim_ros.me212.shots import cue_velocity
-from pool_sim_ros.physics import Ball, Table, report_table, simulate
+from pool_sim_ros.physics import Ball, ShotTooLong, Table, report_table, simulate
 from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.settings import build_settings
 from pool_sim_ros.simulator.shot_request import Code, Phase
@@ -195,6 +195,13 @@ def test_a_shot_that_cannot_be_computed_is_preempted(simulation):
     assert (response.phase, response.code) == (Phase.PREEMPTED, Code.FAILED)
     assert 'no such thing' in response.reason
     assert simulation.request('2')[0].phase is Phase.ACCEPTED
+
+
+def test_a_shot_of_too_many_events_is_preempted(simulation):
+    _, job = simulation.request('1')
+    [response] = simulation.computed(job, ShotTooLong('max_events: more than 7'))
+    assert (response.phase, response.code) == (Phase.PREEMPTED, Code.TOO_LONG)
+    assert 'max_events' in response.reason
 
 
 def test_the_same_request_again_gets_its_latest_response_and_is_not_run(simulation):

@@ -40,7 +40,7 @@ CONTACT = np.dtype(
 
 MEMBER = np.dtype(
     [
-        ('place', 'i8'),  # where the ball is among the members; -1 for no member
+        ('index', 'i8'),  # the ball's index among the members; -1 for no member
         ('vx', 'f8'),  # velocity, m/s
         ('vy', 'f8'),
         ('before_x', 'f8'),  # velocity before friction, m/s
@@ -65,7 +65,7 @@ def new_group(n: int) -> ContactGroup:
     Circles that do not overlap have at most 3 n contacts among them, and 4 n with four cushions.
     """
     group = ContactGroup(np.zeros(7 * n, CONTACT), np.zeros(n, np.int64), np.zeros(n, MEMBER))
-    group.by_ball['place'] = -1
+    group.by_ball['index'] = -1
     return group
 
 
@@ -74,9 +74,9 @@ def join(state: State, members: int, i: int, now: float) -> int:
     """Add a ball to the group unless it is in; return how many there are then."""
     group = state.group
     member = group.by_ball[i]
-    if member.place >= 0:
+    if member.index >= 0:
         return members
-    member.place = members
+    member.index = members
     group.members[members] = i
     member.vx, member.vy = velocity_at(state.balls[i], state.table, now)
     return members + 1
@@ -157,7 +157,7 @@ def gather(state: State, a: int, b: int, now: float, slowest: float) -> tuple[in
                 count = add_contact(group, count, i, partner_of_cushion(cushion), normal, slowest)
         for m in range(neighbours(balls, state.grid, i)):
             k = state.grid.near[m]
-            if k == i or 0 <= group.by_ball[k].place < done:
+            if k == i or 0 <= group.by_ball[k].index < done:
                 continue
             xk, yk = position_at(balls[k], table, now)
             dx, dy = xk - x, yk - y
@@ -191,7 +191,7 @@ def keep_those_in_contact(group: ContactGroup, count: int, members: int) -> int:
     for m in range(members):
         member = group.by_ball[group.members[m]]
         member.pushes = 0.0
-        member.place = -1
+        member.index = -1
     for c in range(count):
         contact = group.contacts[c]
         group.by_ball[contact.a].pushes = 1.0

@@ -200,9 +200,9 @@ def log_contact(
 ) -> None:
     """Write a contact down."""
     ball, log = state.balls[a], state.log
-    place = ball.x + normal[0] * ball.radius, ball.y + normal[1] * ball.radius
+    point = ball.x + normal[0] * ball.radius, ball.y + normal[1] * ball.radius
     if b >= 0:
-        log_event(log, now, BALL_BALL, (a, b), place, normal, closing)
+        log_event(log, now, BALL_BALL, (a, b), point, normal, closing)
         log_hit(log, a, b, state.table.cue_ball)
     else:
-        log_event(log, now, CUSHION, (a, cushion_of_partner(b)), place, normal, closing)
+        log_event(log, now, CUSHION, (a, cushion_of_partner(b)), point, normal, closing)
