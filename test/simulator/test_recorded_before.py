@@ -1,8 +1,8 @@
 """A session that an earlier version recorded, commit 97539c6, plays as it did then.
 
-`data/session_97539c6.npz` has what that version replayed from the same log: every seventh frame, and
-all collisions. A shot is looked up from velocity and acceleration since, not from direction and
-speed, which moves last bits.
+`data/session_97539c6.npz` has what that version replayed from the same log: every seventh frame,
+and all collisions. A shot is looked up from velocity and acceleration since, not from direction
+and speed, which moves last bits.
 """
 
 from pathlib import Path
