@@ -3,7 +3,7 @@
     >>> from pool_sim_ros.physics import report_table, simulate
     >>> shot = simulate(report_table(), (-4.0, 0.0))
     >>> len(shot.events), round(shot.duration, 3)
-    (24, 4.077)
+    (24, 1.519)
 
 `table` says what is played on, `shots` plays, `trajectory` is what comes of it. `event_driven` is
 the exact integrator, `time_slice` the report's; both take the laws from `motion` and `contacts`.
@@ -15,18 +15,12 @@ from pool_sim_ros.lazy import lazy_exports
 from pool_sim_ros.physics.units import INCH
 
 if TYPE_CHECKING:
-    from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
+    from pool_sim_ros.physics.contacts import TwoBallCollision, two_ball_collision
+    from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
     from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
-    from pool_sim_ros.physics.shots import (
-        INTEGRATORS,
-        REPORT_TIME_SLICE,
-        Integrator,
-        compile_kernels,
-        simulate,
-        simulate_many,
-    )
+    from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
     from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, Ball, BallFriction, Table
     from pool_sim_ros.physics.trajectory import Trajectory
     from pool_sim_ros.physics.validation import check_layout
@@ -38,20 +32,20 @@ else:
             'Ball': 'table',
             'BallFriction': 'table',
             'EventKind': 'log',
-            'INTEGRATORS': 'shots',
-            'Integrator': 'shots',
+            'INTEGRATORS': 'integrators',
+            'Integrator': 'integrators',
             'Outcomes': 'outcomes',
             'ShotTooLong': 'outcomes',
-            'REPORT_TIME_SLICE': 'shots',
+            'REPORT_TIME_SLICE': 'integrators',
             'Table': 'table',
             'Trajectory': 'trajectory',
-            'TwoBallCollision': 'contacts.two_ball',
+            'TwoBallCollision': 'contacts',
             'check_layout': 'validation',
             'compile_kernels': 'shots',
             'report_table': 'me212_table',
             'simulate': 'shots',
             'simulate_many': 'shots',
-            'two_ball_collision': 'contacts.two_ball',
+            'two_ball_collision': 'contacts',
         },
     )
 

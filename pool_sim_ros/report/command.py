@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from pool_sim_ros.console import console_command
 from pool_sim_ros.me212 import SHOT_NUMBERS
+from pool_sim_ros.physics import INTEGRATORS
 from pool_sim_ros.report.errors import ReportError
 from pool_sim_ros.report.interrupts import Interrupts
 
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
 
     from pool_sim_ros.report.played import PlayedShot
     from pool_sim_ros.simulator import Settings
-
-INTEGRATORS = ('time_slice', 'event')
-"""Those of `pool_sim_ros.physics`, which loads in a second: too long for --help."""
 
 T = TypeVar('T')
 

@@ -10,7 +10,6 @@ import pytest
 from film_reader import frame_times
 from page_reader import Page
 
-from pool_sim_ros.physics import INTEGRATORS
 from pool_sim_ros.report import command
 
 PROJECT = Path(__file__).parents[2]
@@ -242,7 +241,3 @@ def test_help_loads_nothing_heavy_and_nothing_here_loads_ros():
     assert {'numba', 'matplotlib'} <= set(full.split())
     assert not {'rclpy', 'rcl_interfaces', 'std_msgs'} & set(full.split())
     assert 'matplotlib.pyplot' not in full.split()
-
-
-def test_the_command_offers_the_integrators_that_there_are():
-    assert set(command.INTEGRATORS) == set(INTEGRATORS)

@@ -14,8 +14,10 @@ from pool_sim_ros.physics.contacts.discs import (
     rub_cushion,
     sign,
 )
+from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
 
 __all__ = [
+    'TwoBallCollision',
     'collide_balls',
     'collide_cushion',
     'contact_normal',
@@ -25,4 +27,5 @@ __all__ = [
     'rub_balls',
     'rub_cushion',
     'sign',
+    'two_ball_collision',
 ]

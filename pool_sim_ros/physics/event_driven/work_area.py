@@ -1,0 +1,89 @@
+"""What is needed to play shots on one table, kept from shot to shot."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_one
+from pool_sim_ros.physics.event_driven.state import copied, new_state, start_of
+from pool_sim_ros.physics.jit import call_directly
+from pool_sim_ros.physics.log import FIRST_HIT, new_log
+from pool_sim_ros.physics.outcomes import Shot
+from pool_sim_ros.physics.table import Table
+
+KEPT_BALLS = 1000
+"""Balls up to which a work area is kept for the next shot: about 0.5 MB."""
+
+
+class WorkArea:
+    """What is needed to play shots on one table, kept from shot to shot; for one thread.
+
+    Parameters
+    ----------
+    table : Table
+    """
+
+    def __init__(self, table: Table) -> None:
+        self.table = table
+        n = len(table.balls)
+        log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n)
+        self.state = new_state(table.for_kernels, table.balls_at_rest, log)
+        self.start = start_of(self.state)
+        self._own_layout = np.array(table.positions)
+
+    def play(
+        self,
+        velocities: NDArray[np.float64],
+        layout: NDArray[np.float64] | None,
+        limits: tuple[float, int],
+    ) -> Shot:
+        """Play one shot and keep all of it.
+
+        Parameters
+        ----------
+        velocities : ndarray of shape (n or 1, 2)
+            m/s.
+        layout : ndarray of shape (n, 2)
+            m; None for the balls' own places.
+        limits : tuple of float and int
+            End of the clock, s, and most events.
+        """
+        # Always a layout: `reset` leaves balls where they are that nothing has moved.
+        layout = self._own_layout if layout is None else layout
+        ends = np.empty((2, len(self.table.balls), 2))
+        while True:
+            failed, duration, complete, n_events, n_segments = call_directly(
+                play_one,
+                type(self.state.table),
+                self.state,
+                self.start,
+                velocities,
+                layout,
+                limits,
+                ends,
+            )
+            log = self.state.log
+            if n_events <= len(log.events) and n_segments <= len(log.segments):
+                break
+            self.state = self.state._replace(log=new_log(2 * n_events, 2 * n_segments))
+        events, segments = copied(log.events[:n_events]), copied(log.segments[:n_segments])
+        first_hit = int(log.counts[FIRST_HIT])
+        return Shot(
+            failed, duration, complete, ends[0], ends[1], events, segments, n_events, first_hit
+        )
+
+
+def work_area(table: Table) -> WorkArea:
+    """Return the calling thread's work area for a table, kept for the next shot on it."""
+    kept = getattr(_kept, 'area', None)
+    if kept is not None and kept.table is table:
+        return kept
+    area = WorkArea(table)
+    _kept.area = area if len(table.balls) <= KEPT_BALLS else None
+    return area
+
+
+_kept = threading.local()

@@ -1,0 +1,9 @@
+"""The two integrators by name; light, for those that only name them."""
+
+from typing import Literal, get_args
+
+Integrator = Literal['event', 'time_slice']
+INTEGRATORS: tuple[Integrator, ...] = get_args(Integrator)
+
+REPORT_TIME_SLICE = 1e-6
+"""The report's slice in s (Listing 2)."""

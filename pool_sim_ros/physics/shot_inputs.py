@@ -1,0 +1,133 @@
+"""What a shot is given, checked and made ready for the kernels; and why one failed, in words."""
+
+from __future__ import annotations
+
+import math
+from typing import NoReturn
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE
+from pool_sim_ros.physics.outcomes import BAD_LAYOUT, BAD_VELOCITY, TOO_MANY_EVENTS, ShotTooLong
+from pool_sim_ros.physics.table import Table
+from pool_sim_ros.physics.tolerances import MAX_SPEED, MOST_EVENTS, MOST_EVENTS_A_BALL
+from pool_sim_ros.physics.validation import array, check_layout, number, whole_number
+
+
+def limits_of(
+    table: Table,
+    integrator: str,
+    time_slice: float,
+    until: float | None,
+    max_events: int | None,
+) -> tuple[float, int]:
+    """Return the end of the clock in s and the most events; raise ValueError."""
+    if integrator not in INTEGRATORS:
+        raise ValueError(f"integrator: {integrator!r} must be 'event' or 'time_slice'")
+    if time_slice is not REPORT_TIME_SLICE:
+        number('time_slice', time_slice, above=0.0)
+    if max_events is None:
+        max_events = max(MOST_EVENTS, MOST_EVENTS_A_BALL * len(table.balls))
+    else:
+        max_events = whole_number('max_events', max_events, least=1)
+    return math.inf if until is None else number('until', until, least=0.0), max_events
+
+
+def velocities_for(table: Table, velocities: ArrayLike, alone: int) -> NDArray[np.float64]:
+    """Return velocities as (n or 1, 2), with a dimension more where there are shots.
+
+    `alone` is how many dimensions those of the cue ball alone have.
+    """
+    n = len(table.balls)
+    moving = array('velocities', velocities)
+    if moving.ndim == alone and moving.shape[-1:] == (2,):
+        if table.is_cue.any() and not table.is_cue[0]:
+            raise ValueError(
+                f'velocities: shape {moving.shape} strikes ball 0, but the cue ball is ball '
+                f'{table.is_cue.argmax()}; give ({n}, 2) of them'
+            )
+        moving = moving[..., np.newaxis, :]
+    elif moving.ndim != alone + 1 or moving.shape[-2:] != (n, 2):
+        shots = '' if alone == 1 else 'm, '
+        raise ValueError(
+            f'velocities: shape {moving.shape} must be ({shots}2) for the cue ball alone or '
+            f'({shots}{n}, 2)'
+        )
+    if alone == 2:
+        check_speeds(moving)
+    return for_kernels(moving)
+
+
+def check_speeds(velocities: NDArray[np.float64]) -> None:
+    """Raise ValueError where a ball is too fast, or not finite."""
+    fastest = float(np.abs(velocities).max(initial=0.0))
+    if not fastest <= MAX_SPEED:
+        if not math.isfinite(fastest):
+            raise ValueError(f'velocities: {velocities[~np.isfinite(velocities)][0]} is not finite')
+        raise ValueError(f'velocities: {fastest:g} m/s must be at most {MAX_SPEED:g}')
+
+
+def layouts_for(
+    table: Table, positions: ArrayLike, shots: int | None = None
+) -> NDArray[np.float64]:
+    """Return a layout, (n, 2), or one for each of so many shots; raise ValueError."""
+    n = len(table.balls)
+    layouts = array('positions', positions)
+    if layouts.shape == (n, 2) or (shots is not None and layouts.shape == (shots, n, 2)):
+        return for_kernels(layouts)
+    wanted = f'({n}, 2)' if shots is None else f'({n}, 2) for all shots or ({shots}, {n}, 2)'
+    raise ValueError(f'positions: shape {layouts.shape} must be {wanted}')
+
+
+def for_kernels(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return an array of the one memory layout that the kernels are compiled for."""
+    if values.flags.c_contiguous and values.flags.writeable:
+        return values
+    return np.array(values, order='C')
+
+
+def check_end(
+    table: Table,
+    velocities: NDArray[np.float64],
+    until: float | None,
+    integrator: str,
+    time_slice: float,
+) -> None:
+    """Raise ValueError where balls would never come to rest."""
+    if integrator == 'event' and (until is not None or table.deceleration > 0.0):
+        return
+    check_speeds(velocities)
+    if until is not None:
+        return
+    fastest = float(np.abs(velocities).max(initial=0.0))
+    if fastest == 0.0:
+        return
+    if table.deceleration == 0.0:
+        raise ValueError('until: None must be a time where mu_ball_surface is 0: nothing ends it')
+    # A light ball that a heavy one strikes is faster than either was.
+    if time_slice * table.deceleration < np.spacing(1e3 * fastest):
+        raise ValueError(
+            f'time_slice: {time_slice} is too short: a ball at {fastest:g} m/s loses no speed in it'
+        )
+
+
+def raise_failed(
+    table: Table,
+    failed: int,
+    shot: str,
+    velocities: NDArray[np.float64],
+    layout: NDArray[np.float64] | None,
+    max_events: int,
+) -> NoReturn:
+    """Say why a shot failed."""
+    if failed == BAD_VELOCITY:
+        check_speeds(velocities)
+    if failed == BAD_LAYOUT and layout is not None:
+        check_layout(table, layout, 'positions' if shot == 'this shot' else f'positions of {shot}')
+    if failed == TOO_MANY_EVENTS:
+        raise ShotTooLong(f'max_events: {shot} has more than {max_events} contacts and stops')
+    raise ValueError(
+        f"mu_ball_ball: {table.mu_ball_ball} is too large here: the law 'report' gives {shot} "
+        "energy without end; make it smaller, or use the law 'coulomb'"
+    )
