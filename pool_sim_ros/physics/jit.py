@@ -69,7 +69,7 @@ def register(choice: Callable[..., Any], type_: type, implementation: Callable[.
     choice.implementations[type_] = getattr(implementation, 'py_func', implementation)  # type: ignore[attr-defined]
 
 
-def call_directly(function: Any, key: type, *args: Any) -> Any:
+def call_directly(function: Any, key: tuple[type, ...], *args: Any) -> Any:
     """Call a `kernel` past numba's look at the types of all arguments.
 
     For dozens of arrays in named tuples that look takes ten times as long as the call.
@@ -77,7 +77,7 @@ def call_directly(function: Any, key: type, *args: Any) -> Any:
     Parameters
     ----------
     function : kernel
-    key : type
+    key : tuple of type
         All calls with one key must have arguments of the same types; nobody checks this.
     *args
     """
@@ -90,4 +90,4 @@ def call_directly(function: Any, key: type, *args: Any) -> Any:
     return returned
 
 
-_entry_points: dict[tuple[Any, type], Callable[..., Any]] = {}
+_entry_points: dict[tuple[Any, tuple[type, ...]], Callable[..., Any]] = {}

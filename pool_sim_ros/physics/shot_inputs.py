@@ -9,7 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE
-from pool_sim_ros.physics.outcomes import BAD_LAYOUT, BAD_VELOCITY, TOO_MANY_EVENTS, ShotTooLong
+from pool_sim_ros.physics.outcomes import (
+    BAD_LAYOUT,
+    BAD_VELOCITY,
+    RUNS_AWAY,
+    TOO_MANY_EVENTS,
+    ShotTooLong,
+)
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import MAX_SPEED, MOST_EVENTS, MOST_EVENTS_A_BALL
 from pool_sim_ros.physics.validation import array, check_layout, number, whole_number
@@ -127,7 +133,9 @@ def raise_failed(
         check_layout(table, layout, 'positions' if shot == 'this shot' else f'positions of {shot}')
     if failed == TOO_MANY_EVENTS:
         raise ShotTooLong(f'max_events: {shot} has more than {max_events} contacts and stops')
-    raise ValueError(
-        f"mu_ball_ball: {table.mu_ball_ball} is too large here: the law 'report' gives {shot} "
-        "energy without end; make it smaller, or use the law 'coulomb'"
-    )
+    if failed == RUNS_AWAY:
+        raise ValueError(
+            f"mu_ball_ball: {table.mu_ball_ball} is too large here: the law 'report' gives {shot} "
+            "energy without end; make it smaller, or use the law 'coulomb'"
+        )
+    raise RuntimeError(f'{shot} failed with {failed}, but what it was given seems right')

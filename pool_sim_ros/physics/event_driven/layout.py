@@ -84,7 +84,7 @@ def any_overlap(rows: NDArray[np.float64]) -> bool:
     for i in range(1, rows.shape[1]):
         for k in range(i):
             dx, dy = rows[X, k] - rows[X, i], rows[Y, k] - rows[Y, i]
-            least = max(rows[RADIUS, k] + rows[RADIUS, i] - OVERLAP, 0.0)
+            least = max(rows[RADIUS, i] + rows[RADIUS, k] - OVERLAP, 0.0)
             if dx * dx + dy * dy < least * least:
                 return True
     return False
@@ -98,7 +98,7 @@ def many_overlap(state: State) -> bool:
         for m in range(neighbours(balls, grid, i)):
             k = grid.near[m]
             dx, dy = balls[k].x - balls[i].x, balls[k].y - balls[i].y
-            least = max(balls[k].radius + (balls[i].radius - OVERLAP), 0.0)
+            least = max(balls[i].radius + balls[k].radius - OVERLAP, 0.0)
             if k < i and dx * dx + dy * dy < least * least:
                 return True
     return False

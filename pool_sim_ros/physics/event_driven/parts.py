@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_some
 from pool_sim_ros.physics.event_driven.false_sharing import own_lines
-from pool_sim_ros.physics.event_driven.state import new_state, start_of
+from pool_sim_ros.physics.event_driven.state import new_state, start_of, types_of
 from pool_sim_ros.physics.event_driven.work_area import work_area
 from pool_sim_ros.physics.event_store import EventStore
 from pool_sim_ros.physics.jit import call_directly
@@ -73,7 +73,7 @@ def play_parts(
         while done < count:
             done, filled = call_directly(
                 play_some,
-                type(state.table),
+                types_of(state),
                 state,
                 start,
                 (velocities, layouts),

@@ -46,6 +46,11 @@ def new_state(table: Any, at_rest: NDArray[np.void], log: Log) -> State:
     return State(table, balls, grid, new_queue(n), new_group(n), log)
 
 
+def types_of(state: State) -> tuple[type, ...]:
+    """Return the types that decide which code is compiled for a state."""
+    return type(state.table), type(state.table.boundary)
+
+
 def start_of(state: State) -> Start:
     """Return what `reset` needs to bring a state back to where it is now, at rest."""
     balls, grid = copied(state.balls), state.grid

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_one
-from pool_sim_ros.physics.event_driven.state import copied, new_state, start_of
+from pool_sim_ros.physics.event_driven.state import copied, new_state, start_of, types_of
 from pool_sim_ros.physics.jit import call_directly
 from pool_sim_ros.physics.log import FIRST_HIT, new_log
 from pool_sim_ros.physics.outcomes import Shot
@@ -57,7 +57,7 @@ class WorkArea:
         while True:
             failed, duration, complete, n_events, n_segments = call_directly(
                 play_one,
-                type(self.state.table),
+                types_of(self.state),
                 self.state,
                 self.start,
                 velocities,
