@@ -281,21 +281,3 @@ def neighbours(balls, i):
         if abs(ball['cell_x'] - balls[i]['cell_x']) <= 1
         and abs(ball['cell_y'] - balls[i]['cell_y']) <= 1
     ]
-
-
-# --- Layouts ---
-
-
-def overlap(table, positions):
-    """Return the deepest overlap in m of any two balls or of a ball and a cushion; NaN is inf."""
-    worst = -math.inf
-    for i, (x, y) in enumerate(positions):
-        if not (math.isfinite(x) and math.isfinite(y)):
-            return math.inf
-        radius = table.balls[i].radius
-        worst = max(worst, radius - x, radius - y)
-        worst = max(worst, x + radius - table.length, y + radius - table.width)
-        for k in range(i):
-            distance = math.hypot(x - positions[k][0], y - positions[k][1])
-            worst = max(worst, radius + table.balls[k].radius - distance)
-    return worst

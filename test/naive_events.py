@@ -268,14 +268,3 @@ def resolve(table, x, v):
         v = cluster_friction(contacts, impulses, v, masses)
         took_part += [which for _, which in slow]
     return v, took_part
-
-
-# --- What is asked of a list of events ---
-
-
-def first_hit(events, cue_ball):
-    """Return the other ball of the first event between two balls that has the cue ball; -1: none."""
-    for event in events:
-        if event['kind'] == 0 and cue_ball in (event['a'], event['b']):
-            return int(event['a'] + event['b'] - cue_ball)
-    return -1

@@ -2,7 +2,7 @@
 
 import dataclasses
 
-import naive_events
+import naive_shots
 import numpy as np
 import pytest
 from benchmark.workloads import dense_table, random_velocities
@@ -89,7 +89,7 @@ def test_the_first_ball_that_the_cue_ball_hits(law, integrator):
     options = {'integrator': integrator, **COARSE}
     found = simulate_many(table, velocities, **options).first_hit
     events = events_one_by_one(table, velocities, **options)
-    assert found.tolist() == [naive_events.first_hit(shot, 0) for shot in events]
+    assert found.tolist() == [naive_shots.first_hit(shot, 0) for shot in events]
     assert len(set(found.tolist())) > 5 and -1 in found
 
 
@@ -110,4 +110,4 @@ def test_of_two_balls_hit_at_one_instant_the_first_event_counts():
     events = simulate(table, (2.0, 0.0)).events
     assert events['t'][0] == events['t'][1] and set(events['kind'][:2]) == {0}
     outcomes = simulate_many(table, [(2.0, 0.0)])
-    assert outcomes.first_hit[0] == naive_events.first_hit(events, 0)
+    assert outcomes.first_hit[0] == naive_shots.first_hit(events, 0)
