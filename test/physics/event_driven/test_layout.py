@@ -109,21 +109,26 @@ def test_any_two_balls_that_overlap_are_found(count):
         assert not put(state, start, layout)
 
 
-def test_agrees_with_the_check_to_the_last_bit():
+@pytest.mark.parametrize('count', [3, FEW + 5])
+@pytest.mark.parametrize('largest', [0.04, 0.004])
+def test_agrees_with_the_check_to_the_last_bit(largest, count):
     """Both decide alike where rounding decides, else `simulate` would blame something else."""
     rng = np.random.default_rng(5)
-    for count in (3, FEW + 5):
-        table = loose_table(rng, count)
-        state, start = begun(table)
-        both = set()
-        for _ in range(3000):
-            i, j = rng.choice(count, 2, replace=False)
-            angle = rng.choice([rng.uniform(-math.pi, math.pi), 0.0])
-            apart = table.radii[i] + table.radii[j] - 1e-9
-            apart += rng.integers(-3, 4) * np.spacing(apart)
-            layout = table.positions.copy()
-            layout[i] = layout[j] + apart * np.array([math.cos(angle), math.sin(angle)])
-            found = put(state, start, layout)
-            assert found == (not is_bad(table, layout)), (count, i, j)
-            both.add(found)
-        assert both == {True, False}
+    radii = rng.uniform(0.1 * largest, largest, count)
+    side = 8.0 * largest * math.sqrt(count)
+    spots = random_layout(rng, radii, side, side)
+    balls = [Ball(str(k), 0.1, radii[k], tuple(spots[k])) for k in range(count)]
+    table = Table(side, side, balls)
+    state, start = begun(table)
+    verdicts = set()
+    for _ in range(3000):
+        i, j = rng.choice(count, 2, replace=False)
+        apart = table.radii[i] + (table.radii[j] - LIMIT)
+        layout = table.positions.copy()
+        # Rounded, so that the distance is exact to the last bit.
+        layout[j] = np.round(layout[j] * 2**16) / 2**16
+        layout[i] = layout[j] + (apart + rng.integers(-2, 3) * np.spacing(apart), 0.0)
+        found = put(state, start, layout)
+        assert found == (not is_bad(table, layout)), (i, j)
+        verdicts.add(found)
+    assert verdicts == {True, False}
