@@ -7,7 +7,7 @@ import types
 import numpy as np
 import pytest
 
-from pool_sim_ros.physics import cores, progress, report_table, simulate_many
+from pool_sim_ros.physics import cores, progress, report_table, simulate, simulate_many
 from pool_sim_ros.physics.progress import Counter
 
 
@@ -114,3 +114,16 @@ def test_an_exception_in_one_thread_ends_the_call_for_all(where, monkeypatch):
         simulate_many(report_table(), np.full((20_000, 2), 0.01), threads=2, progress=tell)
     assert raised.is_set()
     assert told[-1] < 20_000
+
+
+def test_who_is_told_may_play_on_the_same_table(monkeypatch):
+    """Shots in the caller's thread share its work area with those that are played meanwhile."""
+    monkeypatch.setattr(cores, 'CHUNK', 3)
+    table, velocities = report_table(), np.random.default_rng(1).normal(size=(20, 2))
+    expected = simulate_many(table, velocities).finals.tobytes()
+
+    def play(done, total):
+        simulate(table, (-4.0, 0.1 * done), until=0.3)
+        simulate_many(table, [(1.0, 0.1 * done)], until=0.2)
+
+    assert simulate_many(table, velocities, progress=play, threads=1).finals.tobytes() == expected

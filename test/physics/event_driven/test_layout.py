@@ -21,7 +21,7 @@ LIMIT = 1e-9  # m: what a layout may overlap
 
 @njit
 def put(state, start, positions):
-    reset(state, start)
+    reset(state, start, False)
     return place(state, start, positions)
 
 

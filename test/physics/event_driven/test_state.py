@@ -18,8 +18,13 @@ from pool_sim_ros.physics.outcomes import BAD_LAYOUT, PLAYED, TOO_MANY_EVENTS
 
 @njit
 def put_back(state, start, layout):
-    reset(state, start)
+    reset(state, start, False)
     return place(state, start, layout)
+
+
+@njit
+def put_all_back(state, start):
+    reset(state, start, True)
 
 
 def begun(table):
@@ -34,7 +39,7 @@ def bits_of(state):
     kept += [grid.first.tobytes(), grid.following.tobytes(), grid.few.rows[:3].tobytes()]
     kept += [grid.few.moving[-1:].tobytes() if grid.few.rows.shape[1] else b'']
     kept += [state.queue['t'][n:].tobytes(), state.queue['t'][1].tobytes()]
-    kept += [state.group.by_ball['place'].tobytes(), state.log.counts.tobytes()]
+    kept += [state.group.by_ball['index'].tobytes(), state.log.counts.tobytes()]
     return kept
 
 
@@ -96,6 +101,19 @@ def test_no_matter_what_was_played_before_a_shot_is_the_same():
             assert used.log.events[:count].tobytes() == fresh.log.events[:count].tobytes()
 
 
+def test_whole_it_is_put_back_where_nothing_is_known_of_it():
+    """Also balls that were put elsewhere and have not moved."""
+    for make in TABLES.values():
+        table = make()
+        state, start = begun(table)
+        put_all_back(state, start)
+        fresh = bits_of(state)
+        place_elsewhere = np.array(table.positions) * [-1.0, 1.0] + [table.length, 0.0]
+        put_back(state, start, place_elsewhere)
+        put_all_back(state, start)
+        assert bits_of(state) == fresh
+
+
 def plain_clearance(table):
     least = np.inf
     for i, one in enumerate(table.balls):
@@ -113,7 +131,7 @@ def test_all_balls_may_be_moved_by_the_clearance():
     for count in (1, 2, 5, 12):
         table = random_table(rng, count)
         state, start = begun(table)
-        found = clearance(state)
+        found = clearance(state.balls, state.table.boundary)
         assert found == pytest.approx(plain_clearance(table), abs=1e-15)
         assert start.clearance_squared == pytest.approx(found**2)
         for _ in range(50):
@@ -125,7 +143,7 @@ def test_all_balls_may_be_moved_by_the_clearance():
 def test_balls_that_overlap_a_little_have_no_clearance():
     table = table_of([(0.5, 0.5), (0.6 - 5e-10, 0.5)])
     state, start = begun(table)
-    assert clearance(state) < 0.0 and start.clearance_squared == 0.0
+    assert clearance(state.balls, state.table.boundary) < 0.0 and start.clearance_squared == 0.0
 
 
 def test_a_state_does_not_change_what_it_was_made_of():
