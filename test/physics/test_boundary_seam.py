@@ -9,13 +9,32 @@ import math
 import numpy as np
 import pytest
 from benchmark.workloads import dense_table, random_velocities
+from numba import njit
+from plain_engine import play_in_plain_python
 from seam_shots import play_on
 from seams import chosen_functions
 from straight_cushions import IMPLEMENTATIONS, polygon, rectangle_of, turned
 from tables import LAWS, random_shots, table_of
 
 from pool_sim_ros.physics import boundary, report_table, simulate
+from pool_sim_ros.physics.boundary import (
+    cushion_gap,
+    cushion_normal,
+    distance_to_cushions,
+    from_cushion_axes,
+    n_cushions,
+    to_cushion_axes,
+    touches_cushion,
+)
 from pool_sim_ros.physics.validation import first_fault
+
+
+@pytest.fixture(params=['plain Python', pytest.param('compiled', marks=pytest.mark.soak)])
+def play_all(request, tmp_path):
+    """Play shots, each the arguments of `play_on`; to compile for a boundary takes long."""
+    if request.param == 'compiled':
+        return lambda shots: [play_on(*shot) for shot in shots]
+    return lambda shots: play_in_plain_python(shots, tmp_path)
 
 
 def within(table, other):
@@ -37,13 +56,13 @@ def test_nothing_is_asked_of_a_boundary_but_what_it_registers():
 
 
 @pytest.mark.parametrize('law', LAWS)
-def test_a_rectangle_of_four_lines_plays_as_the_rectangle(law):
+def test_a_rectangle_of_four_lines_plays_as_the_rectangle(law, play_all):
     table = dataclasses.replace(report_table(), ball_friction=law)
     kernels_table = within(table, rectangle_of(table))
-    cushions = 0
-    for velocity in random_velocities(200, seed=11):
+    cushions, velocities = 0, random_velocities(200, seed=11)
+    shots = [(kernels_table, table.balls_at_rest, velocity) for velocity in velocities]
+    for velocity, found in zip(velocities, play_all(shots), strict=True):
         expected = simulate(table, velocity)
-        found = play_on(kernels_table, table.balls_at_rest, velocity)
         assert np.abs(found.final_positions - expected.final_positions).max() < 1e-12
         assert found.duration == pytest.approx(expected.duration, abs=1e-12)
         assert_same_contacts(found.events, expected.events)
@@ -51,11 +70,12 @@ def test_a_rectangle_of_four_lines_plays_as_the_rectangle(law):
     assert cushions > 200
 
 
-def test_a_crowded_rectangle_of_four_lines_plays_as_the_rectangle():
+def test_a_crowded_rectangle_of_four_lines_plays_as_the_rectangle(play_all):
     table = dense_table(60, decelerating=True)
     velocities = np.random.default_rng(12).normal(size=(60, 2))
     expected = simulate(table, velocities, until=0.3)
-    found = play_on(within(table, rectangle_of(table)), table.balls_at_rest, velocities, until=0.3)
+    kernels_table = within(table, rectangle_of(table))
+    (found,) = play_all([(kernels_table, table.balls_at_rest, velocities, 0.3)])
     assert np.sum(expected.events['kind'] == 1) > 10
     assert np.abs(found.final_positions - expected.final_positions).max() < 1e-12
     assert_same_contacts(found.events, expected.events)
@@ -63,21 +83,22 @@ def test_a_crowded_rectangle_of_four_lines_plays_as_the_rectangle():
 
 @pytest.mark.parametrize('law', LAWS)
 @pytest.mark.parametrize('degrees', [30.0, 90.0, 137.0])
-def test_a_table_that_is_turned_plays_the_turned_shot(degrees, law):
+def test_a_table_that_is_turned_plays_the_turned_shot(degrees, law, play_all):
     """Shots of a few balls, slow, so that each contact multiplies the rounding but little."""
-    contacts = 0
-    for table, velocities in random_shots(68, 20, law, balls=3, fastest=1.5, mu_ball_surface=0.2):
-        straight = rectangle_of(table)
-        corners = turn(
-            [(0, 0), (table.length, 0), (0, table.width), (table.length, table.width)], degrees
-        )
-        shift = -corners.min(axis=0)
+    given = list(random_shots(68, 20, law, balls=3, fastest=1.5, mu_ball_surface=0.2))
+    shots, shifts, contacts = [], [], 0
+    for table, velocities in given:
+        size = table.length, table.width
+        corners = turn([(0, 0), (size[0], 0), (0, size[1]), size], degrees)
+        shifts.append(-corners.min(axis=0))
         length, width = np.ptp(corners, axis=0).tolist()
-        other = turned(straight, degrees, shift)._replace(length=length, width=width)
+        other = turned(rectangle_of(table), degrees, shifts[-1])
+        other = other._replace(length=length, width=width)
         records = table.balls_at_rest.copy()
-        records['x'], records['y'] = (turn(table.positions, degrees) + shift).T
+        records['x'], records['y'] = (turn(table.positions, degrees) + shifts[-1]).T
+        shots.append((within(table, other), records, turn(velocities, degrees)))
+    for (table, velocities), shift, found in zip(given, shifts, play_all(shots), strict=True):
         expected = simulate(table, velocities)
-        found = play_on(within(table, other), records, turn(velocities, degrees))
         ends = turn(expected.final_positions, degrees) + shift
         assert np.abs(found.final_positions - ends).max() < 1e-9
         assert_same_contacts(found.events, expected.events)
@@ -88,11 +109,11 @@ def test_a_table_that_is_turned_plays_the_turned_shot(degrees, law):
     assert contacts > 8
 
 
-def test_the_numbers_of_the_cushions_are_the_boundary_s():
+def test_the_numbers_of_the_cushions_are_the_boundary_s(play_all):
     table, order = report_table(), (3, 0, 2, 1)
     kernels_table = within(table, rectangle_of(table, order))
     expected = simulate(table, (-4.0, 0.5))
-    found = play_on(kernels_table, table.balls_at_rest, (-4.0, 0.5))
+    (found,) = play_all([(kernels_table, table.balls_at_rest, (-4.0, 0.5))])
     numbers = [order[b] for b in found.events['b'][found.events['kind'] == 1]]
     assert numbers == expected.events['b'][expected.events['kind'] == 1].tolist()
 
@@ -103,14 +124,15 @@ def hexagon(size=1.0):
     return polygon(corners - corners.min(axis=0))
 
 
-def test_a_table_of_six_sides_holds_the_balls():
+def test_a_table_of_six_sides_holds_the_balls(play_all):
     """No ball leaves it, energy falls, and each side is met."""
     cloth = hexagon()
     spots = [(1.0, 0.9), (0.6, 0.9), (1.3, 0.8), (0.9, 0.5)]
     table = table_of(spots, length=2.0, width=2.0, ball_friction='coulomb', mu_ball_surface=0.02)
     met = set()
-    for velocity in random_velocities(40, seed=13):
-        shot = play_on(within(table, cloth), table.balls_at_rest, velocity)
+    velocities = random_velocities(40, seed=13)
+    kernels_table = within(table, cloth)
+    for shot in play_all([(kernels_table, table.balls_at_rest, v) for v in velocities]):
         assert shot.complete
         for x, y in [*shot.final_positions, *shot.segments[['x', 'y']].tolist()]:
             assert np.min(cloth.offset - 0.05 - (cloth.nx * x + cloth.ny * y)) > -1e-9
@@ -122,17 +144,38 @@ def test_a_table_of_six_sides_holds_the_balls():
     assert met == set(range(6))
 
 
-def test_several_contacts_at_one_instant_at_a_slanted_cushion():
+def test_several_contacts_at_one_instant_at_a_slanted_cushion(play_all):
     """A ball frozen on a cushion is driven into it: the same as on the rectangle, turned."""
     table = table_of([(0.8, 0.5), (0.8, 0.05)], ball_friction='coulomb', e_ball_cushion=0.9)
     expected = simulate(table, (0.0, -2.0), until=0.5)
     other = turned(rectangle_of(table), 30.0, (1.0, 0.0))._replace(length=3.0, width=3.0)
     records = table.balls_at_rest.copy()
     records['x'], records['y'] = (turn(table.positions, 30.0) + (1.0, 0.0)).T
-    found = play_on(within(table, other), records, turn((0.0, -2.0), 30.0), until=0.5)
+    (found,) = play_all([(within(table, other), records, turn((0.0, -2.0), 30.0), 0.5)])
     assert_same_contacts(found.events[:2], expected.events[:2])
     ends = turn(expected.final_positions, 30.0) + (1.0, 0.0)
     assert np.abs(found.final_positions - ends).max() < 1e-8
+
+
+@njit
+def asked(boundary, x, y, ux, uy):
+    normal = cushion_normal(boundary, 2, x, y)
+    parts = to_cushion_axes(boundary, 2, normal, (ux, uy))
+    return (
+        n_cushions(boundary),
+        cushion_gap(boundary, 2, x, y, 0.05),
+        normal,
+        distance_to_cushions(boundary, x, y, ux, uy, 0.05),
+        from_cushion_axes(boundary, 2, normal, parts),
+        touches_cushion(boundary, x, y, 0.2, -1),
+    )
+
+
+def test_the_compiler_chooses_by_the_boundary_too():
+    lines, plain = rectangle_of(report_table()), report_table().for_kernels.boundary
+    for x, y in np.random.default_rng(15).uniform(0.1, 1.0, (50, 2)):
+        found, expected = (np.hstack(asked(one, x, y, 0.6, -0.8)) for one in (lines, plain))
+        np.testing.assert_allclose(found, expected, atol=1e-14)
 
 
 def test_layouts_are_checked_by_the_boundary():

@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+import numba
 import numpy as np
 
 from pool_sim_ros.physics.event_driven.batch import play_one
@@ -24,7 +25,8 @@ class PlayedShot(NamedTuple):
 
 def play_on(table, records, velocities, until=math.inf, room=5000):
     """Play a shot on the kernels' table, of balls at rest that get velocities, (n or 1, 2) m/s."""
-    state = new_state(table, records, new_log(room, room))
+    records = as_records(records)
+    state = as_records(new_state(table, records, new_log(room, room)))
     layout = np.column_stack([records['x'], records['y']])
     ends = np.empty((2, len(records), 2))
     velocities = np.array(velocities, dtype=float).reshape(-1, 2)
@@ -40,3 +42,12 @@ def play_on(table, records, velocities, until=math.inf, room=5000):
         log.events[: log.counts[N_EVENTS]],
         log.segments[: log.counts[N_SEGMENTS]],
     )
+
+
+def as_records(arrays):
+    """Return arrays whose records have their fields as attributes, where nothing is compiled."""
+    if isinstance(arrays, tuple):
+        return type(arrays)(*map(as_records, arrays))
+    if numba.config.DISABLE_JIT and isinstance(arrays, np.ndarray) and arrays.dtype.names:
+        return arrays.view(np.recarray)
+    return arrays
