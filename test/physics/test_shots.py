@@ -6,7 +6,8 @@ import time
 
 import numpy as np
 import pytest
-from tables import LAWS, random_shots, random_table, random_velocity
+from benchmark.workloads import dense_table
+from tables import LAWS, random_shots, random_table, random_velocity, worst_overlap
 
 from pool_sim_ros.physics import cores, report_table, shots, simulate, simulate_many
 
@@ -111,3 +112,154 @@ def test_who_interrupts_many_shots_does_not_wait_for_the_other_threads(monkeypat
     with pytest.raises(KeyboardInterrupt):
         simulate_many(report_table(), np.full((2000, 2), 0.1), threads=2)
     assert 0 < len(taken) < 2000
+
+
+def test_the_outcomes_have_names_shapes_and_types():
+    outcomes = simulate_many(report_table(), [(-4.0, 0.0), (0.0, 0.0), (-1.0, 0.0)])
+    assert outcomes._fields == (
+        *('finals', 'durations', 'event_counts', 'pocketed', 'first_hit', 'failed'),
+        *('events', 'offsets'),
+    )
+    shapes = [array.shape for array in outcomes[:6]]
+    assert shapes == [(3, 11, 2), (3,), (3,), (3, 11), (3,), (3,)]
+    types = [array.dtype for array in outcomes[:6]]
+    assert types == [float, float, np.int64, np.int64, np.int64, np.int8]
+    assert outcomes.event_counts.tolist() == [24, 0, 1]
+    assert outcomes.first_hit.tolist() == [1, -1, -1]
+    assert np.all(outcomes.pocketed == -1) and not outcomes.failed.any()
+
+
+@pytest.mark.parametrize('threads', [1, 2, 3, 100, None])
+@pytest.mark.parametrize('integrator', ['event', 'time_slice'])
+def test_the_number_of_threads_changes_no_bit(integrator, threads, monkeypatch):
+    monkeypatch.setattr(cores, 'CHUNK', 5)
+    velocities = np.random.default_rng(59).normal(size=(23, 2))
+    options = dict(integrator=integrator, time_slice=1e-3)
+    expected = simulate_many(report_table(), velocities, threads=1, **options)
+    found = simulate_many(report_table(), velocities, threads=threads, **options)
+    for a, b in zip(found[:6], expected[:6], strict=True):
+        assert a.tobytes() == b.tobytes()
+
+
+@pytest.mark.parametrize('value', [0, -1, 1.5, 'all', np.nan])
+def test_a_number_of_threads_that_is_none(value):
+    with pytest.raises(ValueError, match='threads: '):
+        simulate_many(report_table(), [(-1.0, 0.0)], threads=value)
+
+
+@pytest.mark.parametrize('threads', [1, 2])
+@pytest.mark.parametrize('integrator', ['event', 'time_slice'])
+def test_progress_is_told_up_to_the_total(integrator, threads, monkeypatch):
+    monkeypatch.setattr(cores, 'CHUNK', 4)
+    told = []
+    simulate_many(
+        report_table(),
+        np.full((22, 2), 0.01),
+        integrator=integrator,
+        time_slice=1e-3,
+        threads=threads,
+        progress=lambda done, total: told.append((done, total)),
+    )
+    done = [pair[0] for pair in told]
+    assert done == sorted(set(done)) and done[-1] == 22
+    assert {pair[1] for pair in told} == {22}
+
+
+@pytest.mark.parametrize('integrator', ['event', 'time_slice'])
+@pytest.mark.parametrize('threads', [1, 2])
+def test_an_exception_of_the_progress_ends_the_call(integrator, threads, monkeypatch):
+    monkeypatch.setattr(cores, 'CHUNK', 1)
+    told = []
+
+    def stop(done, total):
+        told.append(done)
+        raise LookupError('enough')
+
+    with pytest.raises(LookupError, match='enough'):
+        simulate_many(
+            report_table(),
+            np.full((500, 2), 0.01),
+            integrator=integrator,
+            time_slice=1e-3,
+            threads=threads,
+            progress=stop,
+        )
+    assert 1 <= len(told) <= threads
+
+
+def play_in_threads(tables, velocities, rounds):
+    """Return what each of some threads gets, each playing on all the tables in turn."""
+    found = [[] for _ in range(4)]
+    errors = []
+
+    def play(results):
+        try:
+            for _ in range(rounds):
+                for table in tables:
+                    for velocity in velocities:
+                        results.append(simulate(table, velocity).events.tobytes())
+        except BaseException as error:
+            errors.append(error)
+
+    workers = [threading.Thread(target=play, args=(results,)) for results in found]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert not errors
+    return found
+
+
+def test_shots_from_several_threads_and_on_alternating_tables():
+    """Each thread keeps a work area for the table that it played on last."""
+    rng = np.random.default_rng(60)
+    tables = [report_table(), random_table(rng, 5), random_table(rng, 50, mu_ball_surface=0.3)]
+    velocities = [random_velocity(rng) for _ in range(5)]
+    expected = [simulate(t, v).events.tobytes() for t in tables for v in velocities]
+    for results in play_in_threads(tables, velocities, rounds=3):
+        assert results == 3 * expected
+
+
+def test_tables_that_are_equal_but_not_the_same():
+    velocity = (-4.0, 0.0)
+    expected = simulate(report_table(), velocity)
+    slow = dataclasses.replace(report_table(), mu_ball_surface=1.0)
+    for table in (report_table(), slow, report_table(), slow):
+        shot = simulate(table, velocity)
+        same = shot.events.tobytes() == expected.events.tobytes()
+        assert same == (table.mu_ball_surface == 0.1)
+
+
+def test_a_shot_leaves_nothing_behind_for_the_next():
+    """After one that is cut, one that fails, and one of all balls from elsewhere."""
+    table, velocity = report_table(), (-4.0, 0.0)
+    fresh = simulate(dataclasses.replace(table), velocity)
+    elsewhere = np.array([table.length, 0.0]) + table.positions * [-1.0, 1.0]
+    bad = np.tile(table.positions[0], (11, 1))
+    rng = np.random.default_rng(61)
+    for _ in range(3):
+        simulate(table, rng.normal(size=(11, 2)), until=0.2, positions=elsewhere)
+        with pytest.raises(ValueError, match='overlap'):
+            simulate(table, velocity, positions=bad)
+        with pytest.raises(ValueError, match='max_events'):
+            simulate(table, velocity, max_events=3)
+        with pytest.raises(ValueError, match='velocities'):
+            simulate(table, (np.nan, 0.0))
+        again = simulate(table, velocity)
+        assert again.events.tobytes() == fresh.events.tobytes()
+        assert again.segments.tobytes() == fresh.segments.tobytes()
+        assert again.final_positions.tobytes() == fresh.final_positions.tobytes()
+
+
+def test_a_table_of_two_thousand_balls():
+    """So many that its work area is not kept."""
+    table = dense_table(2000, decelerating=True)
+    velocities = np.zeros((1, 2000, 2))
+    velocities[0, ::40] = (1.5, 0.4)
+    many = simulate_many(table, velocities, events=True)
+    for _ in range(2):
+        shot = simulate(table, velocities[0])
+        assert shot.complete and len(shot.events) > 500
+        assert shot.events.tobytes() == many.events.tobytes()
+        assert shot.final_positions.tobytes() == many.finals[0].tobytes()
+    assert worst_overlap(table, shot.final_positions[None]) < 1e-9

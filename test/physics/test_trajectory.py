@@ -2,9 +2,11 @@
 
 import math
 
+import naive_shots
 import numpy as np
 import pytest
-from tables import LAWS, random_table, random_velocity, table_of
+from segments import by_hand
+from tables import LAWS, random_shots, random_table, random_velocity, table_of
 
 from pool_sim_ros.physics import report_table, simulate
 
@@ -167,3 +169,63 @@ def test_what_is_kept_is_in_proportion_to_what_happened():
     assert len(shot.events) > 2 * len(places)
     for kept in (shot.events, shot.segments):
         assert kept.base.nbytes < 8 * kept.nbytes
+
+
+# --- By hand: any motion of constant acceleration between segments ---
+
+
+def random_segments(rng, n):
+    segments, starts = [], np.sort(np.r_[0.0, rng.uniform(0.0, 2.0, 8)])
+    for t in starts:
+        for ball in range(n):
+            if t == 0.0 or rng.random() < 0.7:
+                rests = rng.random() < 0.3
+                motion = np.zeros(4) if rests else rng.normal(size=4)
+                segments.append((ball, t, *rng.normal(size=2), *motion))
+    return segments
+
+
+def test_look_ups_by_hand():
+    rng = np.random.default_rng(65)
+    for _ in range(30):
+        segments = random_segments(rng, 3)
+        shot = by_hand(segments, 3.0, n=3)
+        times = np.r_[rng.uniform(0.0, 3.0, 50), [s[1] for s in segments]]
+        positions, velocities = shot.positions(times), shot.velocities(times)
+        for k, t in enumerate(times):
+            for ball in range(3):
+                x, v = naive_shots.on_segments(segments, ball, t)
+                assert positions[k, ball] == pytest.approx(x, abs=1e-14)
+                assert velocities[k, ball] == pytest.approx(v, abs=1e-14)
+
+
+def test_a_ball_that_rests_is_where_it_is_for_ever():
+    shot = by_hand([(0, 0.0, 0.5, 0.25, 0, 0, 0, 0)], 0.0)
+    assert shot.positions([0.0, 1e300, math.inf]).tolist() == [[[0.5, 0.25]]] * 3
+    assert not shot.velocities([0.0, 1e300]).any()
+
+
+def test_a_ball_may_set_off_along_one_axis_only():
+    """Also where it is at rest for an instant, with an acceleration along y alone."""
+    shot = by_hand([(0, 0.0, 0.5, 0.25, 0.0, 0.0, 0.0, 2.0)], 1.0)
+    assert shot.positions(0.5)[0].tolist() == [0.5, 0.5]
+    assert shot.velocities(0.5)[0].tolist() == [0.0, 1.0]
+
+
+@pytest.mark.parametrize('time_slice', [1e-2, 1e-3])
+@pytest.mark.parametrize('law', LAWS)
+def test_after_a_coarse_slice_no_ball_turns_back(law, time_slice):
+    """A ball rests within the slice in which it stops; its parabola ends there too."""
+    for table, velocities in random_shots(66, 5, law, balls=4, mu_ball_surface=0.2):
+        shot = simulate(table, velocities, integrator='time_slice', time_slice=time_slice)
+        times = np.r_[
+            np.linspace(0.0, shot.duration, 3000), np.add(shot.duration, [1e-6, 1.0, 1e6])
+        ]
+        velocities = shot.velocities(times)
+        for k, earlier in enumerate(times[:-1]):
+            quiet = ~np.any((shot.segments['t'] > earlier) & (shot.segments['t'] <= times[k + 1]))
+            if quiet:
+                turned = np.sum(velocities[k] * velocities[k + 1], axis=1) < -1e-12
+                assert not turned.any()
+        assert np.abs(shot.positions(times[-3:]) - shot.final_positions).max() < 1e-9
+        assert not velocities[-3:].any()

@@ -1,0 +1,143 @@
+"""An implementation is chosen by the type of a named tuple, in Python and in compiled code."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from numba import njit
+from numba.core.errors import TypingError
+
+from pool_sim_ros.physics.jit import NONE, OPTIONS, chosen_by, inlined, kernel, register
+
+
+class Square(NamedTuple):
+    side: float
+
+
+class Circle(NamedTuple):
+    radius: float
+
+
+class Blob(NamedTuple):
+    side: float
+
+
+@chosen_by('shape')
+def area(factor, shape):
+    """Return the area of a shape, m^2, so many times."""
+    raise NotImplementedError
+
+
+@chosen_by('shape')
+def grow(shape, record):
+    """Add a shape's size to a record."""
+    raise NotImplementedError
+
+
+def square_area(factor, shape):
+    return factor * shape.side * shape.side
+
+
+@kernel
+def circle_area(factor, shape):
+    return factor * 3.0 * shape.radius * shape.radius
+
+
+def grow_square(shape, record):
+    record.size += shape.side
+
+
+def grow_circle(shape, record):
+    record.size += 2.0 * shape.radius
+    record.count += 1
+
+
+register(area, Square, square_area)
+register(area, Circle, circle_area)  # a compiled one too
+register(grow, Square, grow_square)
+register(grow, Circle, grow_circle)
+
+
+@njit
+def compiled_area(factor, shape):
+    return area(factor, shape)
+
+
+@njit
+def both(one, other):
+    return area(1.0, one) + area(1.0, other)
+
+
+@njit
+def grow_first(shape, records):
+    grow(shape, records[0])
+
+
+@pytest.mark.parametrize('call', [area, compiled_area])
+def test_the_type_chooses(call):
+    assert call(2.0, Square(3.0)) == 18.0
+    assert call(2.0, Circle(3.0)) == 54.0
+
+
+def test_one_kernel_may_use_both():
+    assert both(Square(2.0), Circle(1.0)) == 7.0
+    assert both(Circle(1.0), Square(2.0)) == 7.0
+
+
+def test_a_record_is_changed_in_place():
+    records = np.zeros(1, [('size', 'f8'), ('count', 'i8')])
+    grow_first(Square(2.0), records)
+    grow_first(Circle(2.0), records)
+    assert records.tolist() == [(6.0, 1)]
+
+
+def test_a_type_that_nobody_registered():
+    """Also one with the same fields as another."""
+    for shape in (Blob(1.0), (1.0,), 1.0):
+        with pytest.raises(TypingError):
+            compiled_area(1.0, shape)
+        with pytest.raises(KeyError):
+            area(1.0, shape)
+
+
+def test_it_looks_like_what_was_declared():
+    assert area.__name__ == 'area' and area.__doc__.startswith('Return the area')
+
+
+def test_an_implementation_may_be_added_later():
+    class Late(NamedTuple):
+        side: float
+
+    register(area, Late, lambda factor, shape: -factor)
+
+    @njit
+    def late(shape):
+        return area(1.0, shape)
+
+    assert late(Late(1.0)) == -1.0
+    assert area(1.0, Square(1.0)) == 1.0
+
+
+@pytest.mark.parametrize('decorate', [kernel, inlined])
+def test_kernels_divide_as_numpy_and_allocate_nothing(decorate):
+    @decorate
+    def divide(a, b):
+        return a / b
+
+    assert divide(1.0, 0.0) == np.inf and np.isnan(divide(0.0, 0.0))
+
+    @decorate
+    def allocate(n):
+        return np.zeros(n)[0]
+
+    with pytest.raises(Exception, match=r'NRT|allocate|meminfo|nrt'):
+        allocate(3)
+    assert not OPTIONS['_nrt'] and 'fastmath' not in OPTIONS
+
+
+def test_none_is_no_literal():
+    """A literal 0 and a count would be two types: two copies of each kernel."""
+    seen = kernel(lambda count: count)
+    for count in (NONE, 3, np.int64(4)):
+        seen(count)
+    assert len(seen.signatures) == 1
