@@ -9,7 +9,7 @@ from benchmark.workloads import dense_table, random_velocities
 from tables import LAWS, random_velocity, table_of
 
 from pool_sim_ros.physics import INTEGRATORS, cores, report_table, simulate, simulate_many
-from pool_sim_ros.physics.event_driven import batch
+from pool_sim_ros.physics.event_driven import batch, parts
 
 COARSE = {'time_slice': 1e-3}
 
@@ -55,7 +55,7 @@ def test_more_events_than_any_first_room(threads, monkeypatch):
     velocities[::3] = 0.0
     expected = events_one_by_one(table, velocities)
     assert max(map(len, expected)) > batch.FIRST_ROOM + 60
-    assert sum(map(len, expected)) > batch.EVENTS_A_SHOT * 12
+    assert sum(map(len, expected)) > parts.EVENTS_A_SHOT * 12
     assert_same_events(simulate_many(table, velocities, events=True, threads=threads), expected)
 
 
