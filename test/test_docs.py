@@ -1,4 +1,4 @@
-"""What the documentation shows is run; what it names exists."""
+"""What the documentation names exists, and its node runs; test_examples.py runs its other code."""
 
 import ast
 import json
@@ -33,13 +33,10 @@ def test_the_tour_shows_the_example_as_it_is():
     assert EXAMPLE.read_text().strip() in (PROJECT / 'docs' / 'tour.md').read_text()
 
 
-def test_the_python_in_the_tour_runs():
-    blocks = re.findall(r'```python\n(.*?)```', (PROJECT / 'docs' / 'tour.md').read_text(), re.S)
-    (pure,) = [block for block in blocks if 'rclpy' not in block]
-    exec(compile(pure, 'tour.md', 'exec'), {})
+PAGES = [*sorted(PROJECT.glob('*.md')), *sorted((PROJECT / 'docs').glob('*.md'))]
 
 
-@pytest.mark.parametrize('file', sorted((PROJECT / 'docs').glob('*.md')), ids=lambda f: f.name)
+@pytest.mark.parametrize('file', PAGES, ids=lambda file: file.name)
 def test_links_lead_somewhere(file):
     for link in re.findall(r'\]\(([^)#]+)', file.read_text()):
         assert '://' in link or (file.parent / link).exists(), link
@@ -64,3 +61,13 @@ def test_the_launch_file_starts_what_is_there():
     text = (PROJECT / 'launch' / 'pool.launch.xml').read_text()
     files = re.findall(r'\$\(find-pkg-share pool_sim_ros\)/([\w./]+)', text)
     assert files and all((PROJECT / file).is_file() for file in files)
+
+
+def test_make_help_lists_every_target():
+    makefile = (PROJECT / 'Makefile').read_text()
+    targets = set(re.search(r'^\.PHONY: (.*)', makefile, re.MULTILINE)[1].split()) - {'help'}
+    done = subprocess.run(['make', 'help'], cwd=PROJECT, capture_output=True, text=True, timeout=60)
+    assert set(re.findall(r'^make (\w+) ', done.stdout, re.MULTILINE)) == targets
+    text = '\n'.join(page.read_text() for page in PAGES)
+    shown = set(re.findall(r'(?:`|^    )make ([a-z]+)', text, re.MULTILINE))
+    assert 'demo' in shown <= targets

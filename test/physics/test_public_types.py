@@ -1,0 +1,96 @@
+"""A user's script passes `mypy --strict`, and mypy finds what is wrong in one."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pool_sim_ros import physics
+
+pytest.importorskip('mypy')
+
+PROJECT = Path(__file__).parents[2]
+HEAD = f"""\
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics import (
+    {', '.join(physics.__all__)},
+)
+
+table: Table = report_table()
+"""
+RIGHT = """\
+table = dataclasses.replace(table, ball_friction='coulomb', e_cue_ball=0.95)
+ball: Ball = table.balls[0]
+shot: Trajectory = simulate(table, (-4.0, 0.0), integrator='event')
+shot = simulate(table, np.zeros((11, 2)), positions=table.positions, until=1.0)
+shot = simulate(table, [-4.0, 0.0], integrator='time_slice', time_slice=REPORT_TIME_SLICE)
+seconds: float = shot.duration
+whole: bool = shot.complete
+ends: NDArray[np.float64] = shot.final_positions
+ends = shot.positions([0.0, 0.5, 1.0])[-1]
+ends = shot.velocities(np.linspace(0.0, seconds, 10))[0]
+stops = shot.events[shot.events['kind'] == EventKind.STOP]
+outcomes = simulate_many(table, [(-4.0, 0.1), (-4.0, 0.2)])
+ends, durations = outcomes[0][0], outcomes[1]
+longest: np.float64 = durations.max()
+meeting: TwoBallCollision = two_ball_collision(
+    0.17, 0.17, (1.0, 0.0), (0.0, 0.0), 0.028, 0.028, offset=0.01, restitution=0.95, friction=0.06
+)
+angle: float = meeting.impact_angle
+diameter: float = 2 * ball.radius / INCH
+compile_kernels(table)
+laws: list[str] = [*BALL_FRICTION_LAWS, *INTEGRATORS]
+"""
+WRONG = """\
+simulate(table)
+simulate(table, (1.0, 0.0), integrator='runge-kutta')
+simulate(table, (1.0, 0.0), speed=2.0)
+simulate_many((1.0, 0.0), table)
+table.colour
+dataclasses.replace(table, ball_friction='none')
+simulate(table, (1.0, 0.0)).final_position
+Table(length='2.2 m', width=1.1, balls=())
+Table(length=2.2, width=1.1, balls=(), ball_friction='none')
+Table(length=2.2, width=1.1, balls=(), size=9)
+two_ball_collision(0.17, 0.17, (1.0, 0.0))
+"""
+
+
+def mypy(script):
+    """Return what `mypy --strict` prints about a script; what it thinks of our modules is left out.
+
+    numpy's own types take it long to read the first time, so its cache stays in the project.
+    """
+    done = subprocess.run(
+        [sys.executable, '-m', 'mypy', '--strict', '--follow-imports=silent', '--config-file=']
+        + ['--cache-dir', PROJECT / '.mypy_cache' / 'user', script],
+        cwd=script.parent,
+        env=os.environ | {'MYPYPATH': str(PROJECT)},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert not done.stderr, done.stderr
+    return done.stdout
+
+
+def test_a_script_with_every_public_name_passes(tmp_path):
+    script = tmp_path / 'right.py'
+    script.write_text(HEAD + RIGHT)
+    assert mypy(script).startswith('Success')
+
+
+def test_what_is_wrong_in_a_script_is_found(tmp_path):
+    script = tmp_path / 'wrong.py'
+    script.write_text(HEAD + WRONG)
+    found = {int(number) for number in re.findall(r'wrong\.py:(\d+): error', mypy(script))}
+    first = HEAD.count('\n') + 1
+    missed = [line for k, line in enumerate(WRONG.splitlines(), first) if k not in found]
+    assert not missed, 'mypy has nothing against:\n' + '\n'.join(missed)
