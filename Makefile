@@ -16,18 +16,31 @@ BENCH_INSTALLED = $(VENV)/.installed-bench
 BENCH_VENV = .venv-bench
 POOLTOOL_VERSION = 0.6.0
 POOLTOOL = $(BENCH_VENV)/.installed-$(POOLTOOL_VERSION)
+OLDEST_VENV = .venv-oldest
+OLDEST = $(OLDEST_VENV)/.installed
+# What tells the versions that tests run on.
+VERSIONS = -c 'import sys, numba, numpy; \
+	print("Python %d.%d.%d," % sys.version_info[:3], "numpy", numpy.__version__ + ",", "numba", numba.__version__)'
+# Test modules run side by side, each in one process and in its order; 0: all in this one.
+JOBS ?= 2
+OLDEST_PYTHON ?= $(firstword $(wildcard $(or $(PYENV_ROOT),$(HOME)/.pyenv)/versions/3.10*/bin/python) \
+	$(shell python3.10 -c 'print("python3.10")' 2>/dev/null))
+OLDEST_PACKAGES = $(shell sed -n "s/^ *install_requires=\[\(.*\)\],/\1/p" setup.py | tr -d "'," | sed 's/>=/==/g')
 SETUP_FILES = setup.py setup.cfg pyproject.toml package.xml pool_sim_ros/__init__.py \
 	$(wildcard config/* launch/* resource/*)
 
-.PHONY: help demo play test bench clean setup
+.PHONY: help demo play check test soak oldest bench clean setup
 
 help:
 	@echo 'make demo    play the report'\''s four shots on a simulated table and compare with its log'
 	@echo 'make play    start the node and a page in the browser to play on it; Ctrl-C ends both'
-	@echo 'make test    run the linter and the whole test suite'
+	@echo 'make check   format, types, lint and imports: some seconds'
+	@echo 'make test    the checks and the test suite, with what it covers'
+	@echo 'make soak    what takes an hour: long runs of the node, two million shots looked at'
+	@echo 'make oldest  the physics on Python 3.10 with the oldest numpy and numba, where 3.10 is there'
 	@echo 'make bench   run the benchmarks'
 	@echo 'make setup   only create $(VENV) and install everything there'
-	@echo 'make clean   remove $(VENV), caches and build folders'
+	@echo 'make clean   remove the environments, caches and build folders'
 	@echo 'The first run downloads some hundred MB. PYTHON=python3.12 chooses the interpreter (3.10 or newer).'
 
 demo: $(INSTALLED)
@@ -37,11 +50,35 @@ demo: $(INSTALLED)
 play: $(INSTALLED)
 	@$(PY) -m pool_sim_ros.cli.play
 
-# numba's cache does not notice an edit in a module that a kernel imports.
-test: $(INSTALLED)
-	find pool_sim_ros test -name '*.nb[ic]' -delete
+check: $(INSTALLED)
+	$(PY) -m ruff format --check .
+	$(PY) -m mypy
 	$(PY) -m ruff check .
-	$(PY) -m pytest
+	$(VENV)/bin/lint-imports
+
+# numba's cache does not notice an edit in a module that a kernel imports.
+test: check
+	find pool_sim_ros test -name '*.nb[ic]' -delete
+	@$(PY) $(VERSIONS)
+	$(PY) -m pytest --cov -n $(JOBS) --dist loadfile
+
+soak: $(INSTALLED)
+	find pool_sim_ros test -name '*.nb[ic]' -delete
+	@$(PY) $(VERSIONS)
+	$(PY) -m pytest -m soak
+	$(PY) test/long_run.py
+
+# Without the tests that take longest: what they look for depends on no version.
+oldest: $(if $(OLDEST_PYTHON),$(OLDEST))
+ifeq ($(OLDEST_PYTHON),)
+	@echo 'There is no Python 3.10 here, so the physics is not tested on it.'
+else
+	rm -rf $(OLDEST_VENV)/numba
+	@$(OLDEST_VENV)/bin/python $(VERSIONS)
+	NUMBA_CACHE_DIR=$(OLDEST_VENV)/numba $(OLDEST_VENV)/bin/python -m pytest -q -p no:cacheprovider \
+		test/physics test/me212 test/test_examples.py \
+		-k 'not (test_robust or test_properties or test_unskipped or test_long_run or plain_loop)'
+endif
 
 bench: $(BENCH_INSTALLED) $(POOLTOOL)
 	find pool_sim_ros test -name '*.nb[ic]' -delete
@@ -50,7 +87,8 @@ bench: $(BENCH_INSTALLED) $(POOLTOOL)
 		--benchmark-columns=median,iqr,rounds --figures docs/benchmarks.md
 
 clean:
-	rm -rf $(VENV) $(BENCH_VENV) build install log dist *.egg-info .pytest_cache .ruff_cache .hypothesis .benchmarks
+	rm -rf $(VENV) $(BENCH_VENV) $(OLDEST_VENV) build install log dist *.egg-info .pytest_cache .ruff_cache \
+		.mypy_cache .import_linter_cache .hypothesis .benchmarks .coverage .coverage.*
 	find pool_sim_ros test -name __pycache__ -prune -exec rm -rf {} +
 
 setup: $(INSTALLED)
@@ -75,6 +113,14 @@ $(POOLTOOL): test/benchmark/pooltool-requirements.txt
 		-r test/benchmark/pooltool-requirements.txt
 	@$(BENCH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps \
 		pooltool-billiards==$(POOLTOOL_VERSION)
+	@touch $@
+
+$(OLDEST): setup.py
+	@echo 'Installing $(OLDEST_PACKAGES) into $(OLDEST_VENV).'
+	@$(OLDEST_PYTHON) -m venv --clear $(OLDEST_VENV)
+	@echo '*' > $(OLDEST_VENV)/.gitignore
+	@$(OLDEST_VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
+		$(OLDEST_PACKAGES) pytest hypothesis mpmath
 	@touch $@
 
 $(CREATED):

@@ -92,12 +92,16 @@ setup(
             'colcon-ros',
             'cyclonedds',  # sends what rclpy cannot
             'hypothesis',
+            'import-linter>=2.5',
             'mcap',
             'mpmath',
+            'mypy>=1.15',
             'packaging',
             'pip>=22.3',  # its option --python
             'playwright',  # drives the Chromium that the system has
             'pytest>=8',
+            'pytest-cov>=7',
+            'pytest-xdist>=3.6',
             'ruff',
             'setuptools>=70.1',  # makes wheels by itself
         ],
