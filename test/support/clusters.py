@@ -33,7 +33,9 @@ def begin(state, velocities):
         note_motion(state.grid.few, state.balls, i)
 
 
-def moving(table, velocities):
-    state = new_state(table.for_kernels, table.balls_at_rest, new_log(0, 0))
+def moving(table, velocities, balls=None):
+    """Return a state in which all balls of a table are set off, or records of balls at rest."""
+    at_rest = table.balls_at_rest if balls is None else balls
+    state = new_state(table.for_kernels, at_rest, new_log(0, 0))
     begin(state, np.asarray(velocities, dtype=float))
     return state
