@@ -7,7 +7,15 @@ import pytest
 from numba import njit
 from numba.core.errors import TypingError
 
-from pool_sim_ros.physics.jit import NONE, OPTIONS, chosen_by, inlined, kernel, register
+from pool_sim_ros.physics.jit import (
+    NONE,
+    OPTIONS,
+    call_directly,
+    chosen_by,
+    inlined,
+    kernel,
+    register,
+)
 
 
 class Square(NamedTuple):
@@ -141,3 +149,32 @@ def test_none_is_no_literal():
     for count in (NONE, 3, np.int64(4)):
         seen(count)
     assert len(seen.signatures) == 1
+
+
+def test_a_direct_call_returns_what_the_call_does():
+    """The first compiles, the others go to the machine code."""
+
+    @kernel
+    def fill(values, pair):
+        values[0] += pair[0] * pair[1]
+        return values[0], len(values)
+
+    values = np.zeros(3)
+    for k in range(1, 4):
+        assert call_directly(fill, Square, values, (2.0, 3)) == (6.0 * k, 3)
+    assert len(fill.signatures) == 1
+    assert call_directly(fill, Circle, np.zeros(2, np.float32), (2.0, 3)) == (6.0, 2)
+    assert len(fill.signatures) == 2
+
+
+def test_an_exception_of_a_direct_call_is_raised():
+    @kernel
+    def check(value):
+        if value < 0:
+            raise ValueError('negative')
+        return value
+
+    for _ in range(2):
+        assert call_directly(check, Square, 2.0) == 2.0
+        with pytest.raises(ValueError, match='negative'):
+            call_directly(check, Square, -2.0)

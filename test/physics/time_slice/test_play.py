@@ -1,6 +1,7 @@
 """The report's integrator: its printed numbers, and its plain loop bit for bit."""
 
 import dataclasses
+import math
 from importlib.resources import files
 
 import naive
@@ -9,6 +10,7 @@ import pytest
 from tables import LAWS, random_table, random_velocity, report_shots, table_of
 
 from pool_sim_ros.physics import report_table, simulate
+from pool_sim_ros.physics.time_slice.play import last_slice
 
 PUBLISHED = files('pool_sim_ros.me212') / 'published_final_positions.csv'
 
@@ -133,3 +135,22 @@ def test_cut_short_equals_the_whole_shot_up_to_there():
     part = simulate(table, velocity, integrator='time_slice', time_slice=1e-4, until=0.5)
     assert np.abs(part.final_positions - whole.positions([part.duration])[0]).max() < 1e-9
     assert part.duration == pytest.approx(0.5, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ('until', 'expected'),
+    [(0.0, 0), (0.5, 500), (0.50049, 500), (0.50051, 501), (math.inf, 10**18), (1e300, 10**18)],
+)
+def test_the_last_slice(until, expected):
+    assert last_slice(until, 1e-3) == expected
+
+
+def test_a_limit_of_events_that_a_cut_shot_keeps():
+    """Balls still move, but no event is left before the cut."""
+    table, options = report_table(), {'integrator': 'time_slice', 'time_slice': 1e-3}
+    whole = simulate(table, (-4.0, 0.0), **options)
+    times = np.unique(whole.events['t'])
+    cut = (times[4] + times[5]) / 2
+    part = simulate(table, (-4.0, 0.0), until=cut, **options)
+    again = simulate(table, (-4.0, 0.0), until=cut, max_events=len(part.events), **options)
+    assert again.events.tobytes() == part.events.tobytes()

@@ -1,0 +1,40 @@
+"""Parts of many shots, as one of several threads plays them."""
+
+import numpy as np
+import pytest
+from batches import NO_LIMITS, ends_of, in_rows
+from benchmark.workloads import random_velocities
+
+from pool_sim_ros.physics import report_table, simulate
+from pool_sim_ros.physics.event_driven.parts import play_parts
+from pool_sim_ros.physics.event_store import EventStore
+from pool_sim_ros.physics.outcomes import PLAYED, new_outcomes
+
+
+@pytest.mark.parametrize('shared', [False, True])
+@pytest.mark.parametrize('wanted', [False, True])
+def test_only_the_parts_that_are_given_are_played(wanted, shared):
+    table, velocities = report_table(), random_velocities(10, seed=4)
+    outcomes = new_outcomes(10, 11, None)
+    ends = ends_of(outcomes)
+    ends.failed[:] = 9
+    store, told = EventStore(10) if wanted else None, []
+    parts = [slice(0, 4), slice(4, 5)]
+    play_parts(
+        table,
+        table.balls_at_rest,
+        (in_rows(velocities), np.empty((10, 0, 2))),
+        NO_LIMITS,
+        ends,
+        iter(parts),
+        shared,
+        store,
+        told.append,
+    )
+    assert told == [4, 1]
+    assert ends.failed.tolist() == [PLAYED] * 5 + [9] * 5
+    shots = [simulate(table, velocity) for velocity in velocities[:5]]
+    for k, shot in enumerate(shots):
+        assert ends.finals[k].tobytes() == shot.final_positions.tobytes()
+    if wanted:
+        assert store.joined().tobytes() == b''.join(shot.events.tobytes() for shot in shots)
