@@ -79,7 +79,7 @@ setup(
     distclass=DataFilesAlways,
     cmdclass={'install_data': LaunchersToo},
     python_requires='>=3.10',
-    install_requires=['numpy>=1.26', 'numba>=0.59'],
+    install_requires=['numpy>=1.26', 'numba>=0.58.1'],
     extras_require={
         'jazzy': JAZZY,
         'report': ['imageio-ffmpeg', 'latex2mathml', 'matplotlib', 'pyyaml', 'tqdm'],

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from pool_sim_ros.physics.jit import chosen_by, inlined, register
 
 PHASE_END = -1
@@ -136,7 +138,7 @@ def _rectangle_normal(boundary: Rectangle, cushion: int, x: float, y: float) -> 
 def _rectangle_distance(
     boundary: Rectangle, x: float, y: float, ux: float, uy: float, radius: float
 ) -> tuple[float, int]:
-    distance, partner = float('inf'), PHASE_END
+    distance, partner = np.inf, PHASE_END
     if ux > 0.0:
         distance, partner = (boundary.length - radius - x) / ux, FIRST_CUSHION - 1
     elif ux < 0.0:
