@@ -119,6 +119,6 @@ def node_process(*args, **parameters):
 def _environment(module):
     """Return the environment of a child; coverage would measure it, a node that runs fast apart."""
     env = os.environ | {'PYTHONUNBUFFERED': '1', 'RCUTILS_LOGGING_USE_STDOUT': '0'}
-    if module == 'ros.sim_node':  # traced, it cannot keep up; nodes in this process are measured
+    if module == 'cli.sim_node':  # traced, it cannot keep up; nodes in this process are measured
         env.pop('COVERAGE_PROCESS_CONFIG', None)
     return env
