@@ -30,9 +30,9 @@ LATENESS = Path(__file__).with_name('lateness.py')
 ROLLING = {  # the balls roll for hours, slowly: a shot has at most 100,000 events
     'table.mu_ball_surface': 0.0001, 'table.e_cue_ball': 1.0, 'table.e_ball_ball': 1.0,
     'table.e_ball_cushion': 1.0, 'table.mu_ball_ball': 0.0, 'table.mu_ball_cushion': 0.0,
-    'table.gravity': 0.5, 'max_shot_duration': 100000.0, 'publish_clock': 'true',
+    'table.gravity': 0.2, 'max_shot_duration': 100000.0, 'publish_clock': 'true',
 }  # fmt: skip
-STRIKE = [-1.2, 0.17]
+STRIKE = [-1.0, 0.14]
 ROUNDS = 3
 
 
