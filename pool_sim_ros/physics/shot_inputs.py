@@ -48,10 +48,10 @@ def velocities_for(table: Table, velocities: ArrayLike, alone: int) -> NDArray[n
     n = len(table.balls)
     moving = array('velocities', velocities)
     if moving.ndim == alone and moving.shape[-1:] == (2,):
-        if table.is_cue.any() and not table.is_cue[0]:
+        if table.for_kernels.cue_ball > 0:
             raise ValueError(
                 f'velocities: shape {moving.shape} strikes ball 0, but the cue ball is ball '
-                f'{table.is_cue.argmax()}; give ({n}, 2) of them'
+                f'{table.for_kernels.cue_ball}; give ({n}, 2) of them'
             )
         moving = moving[..., np.newaxis, :]
     elif moving.ndim != alone + 1 or moving.shape[-2:] != (n, 2):

@@ -67,7 +67,10 @@ def numbers(
 def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Return `values` as an array of floats; raise ValueError, naming it, where it is none."""
     try:
-        if np.iscomplexobj(values):
+        given = np.asarray(values)
+        if given.dtype == np.float64:
+            return given
+        if given.dtype.kind == 'c':
             raise TypeError
         return np.asarray(values, dtype=float)
     except (TypeError, ValueError):

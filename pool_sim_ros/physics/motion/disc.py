@@ -26,6 +26,7 @@ from pool_sim_ros.physics.motion.straight_path import (
 
 DISC = np.dtype(
     [
+        # What others look at when they look for whom they meet: the first cache line.
         ('x', 'f8'),  # position at `since`, m
         ('y', 'f8'),
         ('ux', 'f8'),  # unit direction of motion; zero at rest
@@ -33,20 +34,21 @@ DISC = np.dtype(
         ('speed', 'f8'),  # at `since`, m/s; zero at rest
         ('since', 'f8'),  # when this motion began, s
         ('radius', 'f8'),
+        ('changes', 'i4'),  # how often its motion has changed
+        ('phase', 'i2'),
+        ('is_cue', 'i2'),
+        # The second one.
         ('next_contact_time', 'f8'),  # when its next contact or end of phase is due, s; inf: none
         ('cell_exit_time', 'f8'),  # when it leaves its cell, s; inf for never
         ('inverse_mass', 'f8'),
         ('last_contact_time', 'f8'),  # s
         ('partner', 'i4'),  # what it meets then: a ball, or as in `boundary`
         ('partner_changes', 'i4'),  # the partner's `changes` when this was found
-        ('changes', 'i4'),  # how often its motion has changed
         ('cell_x', 'i4'),
         ('cell_y', 'i4'),
         ('previous', 'i4'),  # the ball before it in its cell; -1 for none
         ('repeats', 'i2'),  # weak contacts in quick succession, up to now
         ('rounds', 'i2'),  # contacts in the rattle that `last_contact_time` belongs to
-        ('is_cue', 'i2'),
-        ('phase', 'i2'),
     ],
     align=True,
 )
