@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numba
 import numpy as np
+from one_shot import play_one
 
-from pool_sim_ros.physics.event_driven.batch import play_one
 from pool_sim_ros.physics.event_driven.state import new_state, start_of
 from pool_sim_ros.physics.log import N_EVENTS, N_SEGMENTS, new_log
 from pool_sim_ros.physics.outcomes import PLAYED

@@ -1,4 +1,4 @@
-"""One shot, or many one after another, in a single call into compiled code."""
+"""Shots one after another, in a single call into compiled code."""
 
 from __future__ import annotations
 
@@ -13,66 +13,12 @@ from pool_sim_ros.physics.event_driven.state import (
     reset,
 )
 from pool_sim_ros.physics.jit import inlined, kernel
-from pool_sim_ros.physics.log import FIRST_HIT, N_EVENTS, N_SEGMENTS
+from pool_sim_ros.physics.log import FIRST_HIT, N_EVENTS
 from pool_sim_ros.physics.outcomes import BAD_LAYOUT, BAD_VELOCITY, PLAYED, RUNS_AWAY, Ends
 from pool_sim_ros.physics.tolerances import MAX_SPEED
 
 FIRST_ROOM = 64
 """Events beyond one a ball for which a log has room at first; most shots have fewer."""
-
-
-@inlined
-def play(
-    state: State,
-    start: Start,
-    velocities: NDArray[np.float64],
-    layout: NDArray[np.float64],
-    whole: bool,
-    limits: tuple[float, int],
-    ends: tuple[NDArray[np.float64], NDArray[np.float64]],
-) -> tuple[int, float, bool]:
-    """Play one shot from a layout, (n, 2) in m; from the start, where the layout has no rows.
-
-    The start must be made `whole` where the state is not known to have been played from it last.
-
-    `limits` are the end of the clock in s and the most events, `ends` the final positions and
-    velocities. Returns how it ended, the duration in s and whether all balls rest.
-    """
-    until, max_events = limits
-    reset(state, start, whole)
-    if len(layout) > 0 and not place(state, start, layout):
-        return BAD_LAYOUT, np.nan, False
-    most = strike(state, velocities)
-    failed = run(state, until, most, max_events)
-    duration, complete, lost = finish(state, until, most, ends[0], ends[1])
-    if failed == PLAYED and lost:
-        failed = RUNS_AWAY
-    return failed, duration, complete
-
-
-@kernel
-def play_one(
-    state: State,
-    start: Start,
-    velocities: NDArray[np.float64],
-    layout: NDArray[np.float64],
-    limits: tuple[float, int],
-    ends: NDArray[np.float64],
-) -> tuple[int, float, bool, int, int]:
-    """Play one shot as `play` does; `ends` is (2, n, 2).
-
-    Returns how it ended, the duration in s, whether all balls rest, and how many events and
-    segments it has.
-    """
-    for i in range(len(velocities)):
-        # Written so that NaN is refused too.
-        if not (abs(velocities[i, 0]) <= MAX_SPEED and abs(velocities[i, 1]) <= MAX_SPEED):
-            return BAD_VELOCITY, np.nan, False, 0, 0
-    failed, duration, complete = play(
-        state, start, velocities, layout, False, limits, (ends[0], ends[1])
-    )
-    counts = state.log.counts
-    return failed, duration, complete, counts[N_EVENTS], counts[N_SEGMENTS]
 
 
 @kernel
@@ -83,8 +29,10 @@ def play_some(
     begun: tuple[int, int],
     limits: tuple[float, int],
     ends: tuple[Ends, NDArray[np.float64], NDArray[np.void]],
-) -> tuple[int, int]:
+) -> tuple[int, int, bool]:
     """Play shots until one has more events than find room.
+
+    Whoever plays one shot calls this too: to compile the engine twice takes seconds.
 
     Parameters
     ----------
@@ -94,35 +42,44 @@ def play_some(
     begun : tuple of int
         How many were played before, and how many events are in the room already.
     limits : tuple
-        As in `play`.
+        End of the clock, s, and most events of a shot.
     ends : tuple
-        Of the shots; room for final velocities, (n, 2); room for all events.
+        Of the shots; room for the final velocities of one, (n, 2) in m/s; room for all events,
+        none where they are not wanted.
 
     Returns
     -------
     done, filled : int
-        The same afterwards.
+        As `begun`, afterwards.
+    complete : bool
+        Whether all balls rested at the end of the last shot.
     """
     velocities, layouts = shots
     until, max_events = limits
     results, final_velocities, events = ends
     log = state.log
-    wanted = len(log.events) > 0
     first, filled = begun
+    complete = False
     for shot in range(first, len(velocities)):
-        failed, duration, _ = play(
-            state,
-            start,
-            velocities[shot],
-            layouts[shot],
-            shot == first,
-            limits,
-            (results.finals[shot], final_velocities),
-        )
+        # What was played last from this state may not be known: all is put back before the first.
+        reset(state, start, shot == first)
+        failed, duration, complete = PLAYED, np.nan, False
+        if any_too_fast(velocities[shot]):
+            failed = BAD_VELOCITY
+        elif layouts.shape[1] > 0 and not place(state, start, layouts[shot]):
+            failed = BAD_LAYOUT
+        else:
+            most = strike(state, velocities[shot])
+            failed = run(state, until, most, max_events)
+            duration, complete, lost = finish(
+                state, until, most, results.finals[shot], final_velocities
+            )
+            if failed == PLAYED and lost:
+                failed = RUNS_AWAY
         count = log.counts[N_EVENTS]
-        if wanted and failed == PLAYED:
+        if len(events) > 0 and failed == PLAYED:
             if count > len(log.events) or filled + count > len(events):
-                return shot, filled
+                return shot, filled, complete
             for k in range(count):
                 events[filled + k] = log.events[k]
             filled += count
@@ -132,7 +89,17 @@ def play_some(
         results.failed[shot] = failed
         if failed != PLAYED:
             mark(results, shot)
-    return len(velocities), filled
+    return len(velocities), filled, complete
+
+
+@inlined
+def any_too_fast(velocities: NDArray[np.float64]) -> bool:
+    """Return whether a component, of (k, 2) in m/s, is above MAX_SPEED or not a number."""
+    for i in range(len(velocities)):
+        # Written so that NaN is refused too.
+        if not (abs(velocities[i, 0]) <= MAX_SPEED and abs(velocities[i, 1]) <= MAX_SPEED):
+            return True
+    return False
 
 
 @kernel

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_some
 from pool_sim_ros.physics.event_driven.false_sharing import own_lines
 from pool_sim_ros.physics.event_driven.state import new_state, start_of, types_of
-from pool_sim_ros.physics.event_driven.work_area import work_area
+from pool_sim_ros.physics.event_driven.work_area import NO_EVENTS, work_area
 from pool_sim_ros.physics.event_store import EventStore
 from pool_sim_ros.physics.jit import call_directly
 from pool_sim_ros.physics.log import EVENT, N_EVENTS, new_log
@@ -19,8 +19,6 @@ from pool_sim_ros.physics.table import Table
 
 EVENTS_A_SHOT = 32
 """Events a shot for which there is room at first; what is not used costs no memory."""
-
-NO_EVENTS = np.empty(0, EVENT)
 
 
 def play_parts(
@@ -71,7 +69,7 @@ def play_parts(
         count, done, filled = len(velocities), 0, 0
         room = NO_EVENTS if store is None else store.room(EVENTS_A_SHOT * count)
         while done < count:
-            done, filled = call_directly(
+            done, filled, _ = call_directly(
                 play_some,
                 types_of(state),
                 state,

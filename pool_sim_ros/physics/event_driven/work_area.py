@@ -7,12 +7,16 @@ import threading
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_one
+from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_some
 from pool_sim_ros.physics.event_driven.state import copied, new_state, start_of, types_of
 from pool_sim_ros.physics.jit import call_directly
-from pool_sim_ros.physics.log import FIRST_HIT, new_log
-from pool_sim_ros.physics.outcomes import Shot
+from pool_sim_ros.physics.log import EVENT, new_log
+from pool_sim_ros.physics.outcomes import Ends, Shot
 from pool_sim_ros.physics.table import Table
+
+NO_EVENTS = np.empty(0, EVENT)
+NO_LAYOUT = np.empty((1, 0, 2))
+NONE_PLAYED = (0, 0)
 
 KEPT_BALLS = 1000
 """Balls up to which a work area is kept for the next shot: about 0.5 MB."""
@@ -32,7 +36,9 @@ class WorkArea:
         log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n)
         self.state = new_state(table.for_kernels, table.balls_at_rest, log)
         self.start = start_of(self.state)
-        self._own_layout = np.array(table.positions)
+        self._duration, self._failed = np.empty(1), np.empty(1, np.int8)
+        self._numbers = np.empty(1, np.int64), np.empty(1, np.int64)
+        self._types = types_of(self.state)
 
     def play(
         self,
@@ -51,28 +57,30 @@ class WorkArea:
         limits : tuple of float and int
             End of the clock, s, and most events.
         """
-        # Always a layout: `reset` leaves balls where they are that nothing has moved.
-        layout = self._own_layout if layout is None else layout
-        ends = np.empty((2, len(self.table.balls), 2))
+        layouts = NO_LAYOUT if layout is None else layout[np.newaxis]
+        n = len(self.table.balls)
+        finals, final_velocities = np.empty((1, n, 2)), np.empty((n, 2))
+        ends = Ends(finals, self._duration, *self._numbers, self._failed)
+        shots, room = (velocities[np.newaxis], layouts), (ends, final_velocities, NO_EVENTS)
         while True:
-            failed, duration, complete, n_events, n_segments = call_directly(
-                play_one,
-                types_of(self.state),
-                self.state,
-                self.start,
-                velocities,
-                layout,
-                limits,
-                ends,
+            _, _, complete = call_directly(
+                play_some, self._types, self.state, self.start, shots, NONE_PLAYED, limits, room
             )
             log = self.state.log
+            n_events, n_segments, first_hit = log.counts.tolist()
             if n_events <= len(log.events) and n_segments <= len(log.segments):
                 break
             self.state = self.state._replace(log=new_log(2 * n_events, 2 * n_segments))
-        events, segments = copied(log.events[:n_events]), copied(log.segments[:n_segments])
-        first_hit = int(log.counts[FIRST_HIT])
         return Shot(
-            failed, duration, complete, ends[0], ends[1], events, segments, n_events, first_hit
+            self._failed.item(),
+            self._duration.item(),
+            complete,
+            finals[0],
+            final_velocities,
+            copied(log.events[:n_events]),
+            copied(log.segments[:n_segments]),
+            n_events,
+            first_hit,
         )
 
 

@@ -11,7 +11,7 @@ from pool_sim_ros.physics.log import EVENT, N_EVENTS, new_log
 from pool_sim_ros.physics.outcomes import new_outcomes
 
 
-@pytest.mark.parametrize('room', [0, 10, 30, 50, 10_000])
+@pytest.mark.parametrize('room', [10, 30, 50, 10_000])
 def test_some_shots_are_played_until_there_is_no_room_for_their_events(room):
     table = report_table()
     velocities = in_rows([(-4.0, 0.0), (0.0, 0.0), (-4.0, 0.0), (-0.1, 0.0)])
@@ -19,7 +19,7 @@ def test_some_shots_are_played_until_there_is_no_room_for_their_events(room):
     state = new_state(table.for_kernels, table.balls_at_rest, new_log(100, 0))
     outcomes, events = new_outcomes(4, 11, None), np.empty(room, EVENT)
     outcomes.durations[:] = -7.0
-    done, filled = play_some(
+    done, filled, _ = play_some(
         state,
         start_of(state),
         (velocities, np.empty((4, 0, 2))),
@@ -35,11 +35,26 @@ def test_some_shots_are_played_until_there_is_no_room_for_their_events(room):
         assert state.log.counts[N_EVENTS] == counts[done], 'how much room it needs'
 
 
+def test_without_room_for_events_all_shots_are_played():
+    table = report_table()
+    state = new_state(table.for_kernels, table.balls_at_rest, new_log(5, 0))
+    outcomes = new_outcomes(2, 11, None)
+    assert play_some(
+        state,
+        start_of(state),
+        (in_rows([(-0.1, 0.0), (-4.0, 0.0)]), np.empty((2, 0, 2))),
+        (0, 0),
+        NO_LIMITS,
+        (ends_of(outcomes), np.empty((11, 2)), np.empty(0, EVENT)),
+    ) == (2, 0, True)
+    assert outcomes.event_counts.tolist() == [1, 24]
+
+
 def test_a_shot_that_outgrows_the_log_is_not_taken():
     table = report_table()
     state = new_state(table.for_kernels, table.balls_at_rest, new_log(5, 0))
     outcomes = new_outcomes(2, 11, None)
-    done, filled = play_some(
+    done, filled, _ = play_some(
         state,
         start_of(state),
         (in_rows([(-0.1, 0.0), (-4.0, 0.0)]), np.empty((2, 0, 2))),

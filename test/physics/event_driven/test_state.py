@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from benchmark.workloads import dense_table
 from numba import njit
+from one_shot import play_one
 from tables import random_layout, random_table, random_velocity, table_of
 
 from pool_sim_ros.physics import report_table
-from pool_sim_ros.physics.event_driven.batch import play_one
 from pool_sim_ros.physics.event_driven.layout import place
 from pool_sim_ros.physics.event_driven.state import clearance, copied, new_state, reset, start_of
 from pool_sim_ros.physics.log import new_log
