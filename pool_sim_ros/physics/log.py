@@ -76,18 +76,6 @@ def new_log(events: int, segments: int) -> Log:
     return log
 
 
-def is_whole(log: Log) -> bool:
-    """Return whether all that was counted found room."""
-    events, segments, _ = log.counts
-    return bool(events <= len(log.events) and segments <= len(log.segments))
-
-
-def with_room(log: Log) -> Log:
-    """Return a log with twice the room that the last shot needed."""
-    events, segments, _ = log.counts.tolist()
-    return new_log(2 * max(events, 1), 2 * max(segments, 1))
-
-
 @inlined
 def clear(log: Log) -> None:
     """Forget what is in the log."""

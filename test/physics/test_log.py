@@ -15,12 +15,10 @@ from pool_sim_ros.physics.log import (
     STOP,
     EventKind,
     clear,
-    is_whole,
     log_event,
     log_hit,
     log_segment,
     new_log,
-    with_room,
 )
 
 
@@ -68,7 +66,6 @@ def test_events_are_counted_and_kept_where_they_find_room(room):
     kept = min(room, 6)
     assert log.counts[N_EVENTS] == 6
     assert log.events[:kept].tolist() == expected_events(kept)
-    assert is_whole(log) == (room >= 6)
 
 
 @pytest.mark.parametrize('room', [1, 5, 6, 100])
@@ -78,30 +75,12 @@ def test_segments_too(room):
     kept = min(room, 6)
     assert log.counts[N_SEGMENTS] == 6
     assert log.segments[:kept].tolist() == expected_segments(kept)
-    assert is_whole(log) == (room >= 6)
 
 
 def test_segments_are_not_counted_where_nobody_wants_them():
     log = new_log(3, 0)
     write_segments(log, 6)
-    assert log.counts[N_SEGMENTS] == 0 and is_whole(log)
-
-
-def test_a_log_with_room_holds_the_same_shot():
-    log = new_log(1, 1)
-    write_events(log, 7)
-    write_segments(log, 4)
-    larger = with_room(log)
-    assert larger.counts.tolist() == [0, 0, -1]
-    write_events(larger, 7)
-    write_segments(larger, 4)
-    assert is_whole(larger)
-    assert len(larger.events) == 14 and len(larger.segments) == 8
-
-
-def test_an_empty_log_gets_room_too():
-    larger = with_room(new_log(0, 0))
-    assert len(larger.events) >= 1 and len(larger.segments) >= 1
+    assert log.counts[N_SEGMENTS] == 0
 
 
 def test_what_is_forgotten():

@@ -7,11 +7,7 @@ from numpy.typing import NDArray
 
 from pool_sim_ros.physics.event_driven.engine import finish, run, strike
 from pool_sim_ros.physics.event_driven.layout import place
-from pool_sim_ros.physics.event_driven.state import (
-    Start,
-    State,
-    reset,
-)
+from pool_sim_ros.physics.event_driven.state import Start, State, reset
 from pool_sim_ros.physics.jit import inlined, kernel
 from pool_sim_ros.physics.log import FIRST_HIT, N_EVENTS
 from pool_sim_ros.physics.outcomes import BAD_LAYOUT, BAD_VELOCITY, PLAYED, RUNS_AWAY, Ends
