@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from functools import wraps
+from functools import cached_property, update_wrapper, wraps
 from typing import Any, TypeVar
 
 import numpy as np
-from numba import njit, typeof
+from numba import config, njit, typeof, types
 from numba.extending import overload
 
 OPTIONS = {'error_model': 'numpy', 'nogil': True, '_nrt': False}
@@ -19,17 +19,55 @@ Kernels allocate nothing and keep no arrays. So numba's reference counts, which 
 half its time, are switched off; an allocation in a kernel does not compile.
 """
 
-kernel = njit(cache=True, **OPTIONS)
-"""Compile a function that Python calls, or that is long or rarely called."""
+FOR_KERNELS = {**OPTIONS, 'no_cpython_wrapper': True, 'no_cfunc_wrapper': True}
+"""For functions that compiled ones call: without the code that takes Python's arguments apart.
 
-inlined = njit(cache=True, forceinline=True, **OPTIONS)
-"""Compile a function into those that call it: passing arrays to it would cost more than it does."""
+For named tuples of dozens of arrays that code takes a third of the time of compiling.
+"""
+
+
+class Kernel:
+    """A function that compiled functions call. Python may: then it is compiled once more, and kept.
+
+    Parameters
+    ----------
+    function : callable
+    **options
+        As numba's, for those that compiled functions call.
+    """
+
+    def __init__(self, function: Callable[..., Any], **options: Any) -> None:
+        update_wrapper(self, function)
+        self.py_func = function
+        self._for_kernels = njit(**FOR_KERNELS, **options)(function)
+        # By this name numba asks an object for its type.
+        self._numba_type_ = types.Dispatcher(self._for_kernels)
+
+    @cached_property
+    def for_python(self) -> Any:
+        """numba's dispatcher, for Python; what it compiles is kept in numba's cache."""
+        return njit(cache=True, **OPTIONS)(self.py_func)
+
+    def __call__(self, *args: Any) -> Any:
+        return self.for_python(*args)
+
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """Compile a function that is long or rarely called."""
+    return function if config.DISABLE_JIT else Kernel(function)
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """Compile a function into those that call it: passing it arrays would cost more than it does."""
+    return function if config.DISABLE_JIT else Kernel(function, forceinline=True)
+
 
 NONE = np.int64(0)
 """How many there are to begin with. Not a literal: for each of those a kernel is compiled anew."""
 
 Record = Any
 """One row of a structured array. In a kernel its fields are attributes."""
+
 
 Function = TypeVar('Function', bound=Callable[..., Any])
 
@@ -57,7 +95,7 @@ def chosen_by(parameter: str) -> Callable[[Function], Function]:
         def choose(*types: Any) -> Callable[..., Any] | None:
             return implementations.get(getattr(types[index], 'instance_class', object))
 
-        overload(call, jit_options={**OPTIONS, 'forceinline': True}, strict=False)(choose)
+        overload(call, jit_options={**FOR_KERNELS, 'forceinline': True}, strict=False)(choose)
         call.implementations = implementations  # type: ignore[attr-defined]
         return call  # type: ignore[return-value]
 
@@ -85,7 +123,7 @@ def call_directly(function: Any, key: tuple[type, ...], *args: Any) -> Any:
     if entry_point is not None:
         return entry_point(*args)
     returned = function(*args)
-    compiled = function.overloads[tuple(typeof(argument) for argument in args)]
+    compiled = function.for_python.overloads[tuple(typeof(argument) for argument in args)]
     _entry_points[function, key] = compiled.entry_point
     return returned
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from numba import njit
+from numba import config, njit
 from numba.core.errors import TypingError
 
 from pool_sim_ros.physics.jit import (
@@ -143,12 +143,41 @@ def test_kernels_divide_as_numpy_and_allocate_nothing(decorate):
     assert not OPTIONS['_nrt'] and 'fastmath' not in OPTIONS
 
 
+@pytest.mark.parametrize('decorate', [kernel, inlined])
+def test_python_and_compiled_functions_call_the_same_kernel(decorate):
+    """Each gets machine code of its own; that of Python alone can take Python's arguments apart."""
+
+    @decorate
+    def triple(shape):
+        """Return three sides."""
+        return 3.0 * shape.side
+
+    @njit
+    def call(shape):
+        return triple(shape) + 0.5
+
+    for _ in range(2):
+        assert call(Square(2.0)) == 6.5
+        assert triple(Square(2.0)) == 6.0
+    assert triple.py_func(Square(1.0)) == 3.0
+    assert triple.__name__ == 'triple' and triple.__doc__ == 'Return three sides.'
+
+
+def test_where_numba_compiles_nothing_a_kernel_is_python(monkeypatch):
+    monkeypatch.setattr(config, 'DISABLE_JIT', 1)
+
+    def one():
+        return 1
+
+    assert kernel(one) is one and inlined(one) is one
+
+
 def test_none_is_no_literal():
     """A literal 0 and a count would be two types: two copies of each kernel."""
     seen = kernel(lambda count: count)
     for count in (NONE, 3, np.int64(4)):
         seen(count)
-    assert len(seen.signatures) == 1
+    assert len(seen.for_python.signatures) == 1
 
 
 def test_a_direct_call_returns_what_the_call_does():
@@ -162,9 +191,9 @@ def test_a_direct_call_returns_what_the_call_does():
     values = np.zeros(3)
     for k in range(1, 4):
         assert call_directly(fill, Square, values, (2.0, 3)) == (6.0 * k, 3)
-    assert len(fill.signatures) == 1
+    assert len(fill.for_python.signatures) == 1
     assert call_directly(fill, Circle, np.zeros(2, np.float32), (2.0, 3)) == (6.0, 2)
-    assert len(fill.signatures) == 2
+    assert len(fill.for_python.signatures) == 2
 
 
 def test_an_exception_of_a_direct_call_is_raised():
