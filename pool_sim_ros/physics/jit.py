@@ -58,7 +58,7 @@ def kernel(function: Callable[..., Any]) -> Any:
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Compile a function into those that call it: passing it arrays would cost more than it does."""
+    """Compile a function into those that call it: to pass it arrays would cost more."""
     return function if config.DISABLE_JIT else Kernel(function, forceinline=True)
 
 

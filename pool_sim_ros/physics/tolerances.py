@@ -11,6 +11,9 @@ OVERLAP = 1e-9
 TOUCHING = 1e-9
 """Gap in m up to which things are in contact at the same instant: what a layout may overlap."""
 
+PRESS_TOUCHING = 1e-6
+"""The same in m for what something presses together: the least speed lifts a ball by so much."""
+
 TOUCH_ROUNDING = 2.0**-51
 """Part of the square of the distance at contact that rounding may add to or take from it."""
 
@@ -40,11 +43,32 @@ belong to a collapse, in which balls bounce ever faster."""
 V_ROUNDING = 1e-11
 """Speed in m/s at which a weak contact parts at the least, so that rounding cannot close it."""
 
+CLOSING_ROUNDING = 1e-12
+"""Speed in m/s up to which what touches does not close: rounding may be the whole of it."""
+
 COLLAPSE_GROWTH = 4.0
 """What that speed is multiplied by at each repeat, up to V_MIN: this ends a collapse."""
 
 MAX_REPEATS = 20
 """Repeats that are counted: after 12 that speed has reached V_MIN."""
+
+PRESS_WINDOW = 0.1
+"""Time in s within which what is pressed together meets again."""
+
+STEADY_PRESSES = 200
+"""Weak contacts, each within that time of the one before, after which something presses."""
+
+PRESS_GROWTH = 2.0 ** (1.0 / 64.0)
+"""What V_MIN is then multiplied by at each further one: twice as fast takes twice as long."""
+
+MAX_PRESSES = STEADY_PRESSES + 64 * 4
+"""How many are counted: at 16 V_MIN a ball is lifted by a micrometre."""
+
+PRESS_MARGIN = 2.0
+"""A pressed contact is weak that closes at most so many times as fast as it is to part."""
+
+SETTLE_EVERY = 8
+"""One in so many pressed contacts parts at V_ROUNDING: two balls may lie still by now."""
 
 REPEAT_WINDOW = 1e-3
 """Time in s within which a weak contact repeats an earlier one."""
@@ -65,6 +89,21 @@ NO_SLIP = 1e-10
 
 MAX_ITERATIONS = 20_000
 """Iterations for the impulses of one instant; a rack of 15 needs some hundred."""
+
+EASY_MASS_RATIO = 30.0
+"""Ratio of the masses of an instant up to which these iterations are tried first."""
+
+EASY_ITERATIONS = 2_000
+"""Iterations after which they are given up where there is another way."""
+
+PROXIMITY = 1e-6
+"""What a proximal step adds to each diagonal element, as a part of it."""
+
+MAX_PROXIMAL_STEPS = 200
+"""Proximal steps; a few where contacts do not outnumber the freedoms."""
+
+MAX_PIVOTS = 500
+"""Contacts that may begin to push while a few are found that do: about as many as there are."""
 
 IMPULSE_PRECISION = 1e-14
 """Change of the separation speeds, beside the speeds, at which the impulses are found."""

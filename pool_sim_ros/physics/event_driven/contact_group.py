@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.boundary import (
     cushion_gap,
     cushion_normal,
-    cushion_of_partner,
     n_cushions,
     partner_of_cushion,
 )
 from pool_sim_ros.physics.contacts import contact_normal
 from pool_sim_ros.physics.event_driven.cell_grid import neighbours
+from pool_sim_ros.physics.event_driven.linear_complementarity import Problem, new_problem
 from pool_sim_ros.physics.jit import NONE, kernel
 from pool_sim_ros.physics.motion import position_at, velocity_at
-from pool_sim_ros.physics.tolerances import TOUCHING
+from pool_sim_ros.physics.tolerances import CLOSING_ROUNDING, V_MIN
 
 if TYPE_CHECKING:
     from pool_sim_ros.physics.event_driven.state import State
@@ -31,6 +31,8 @@ CONTACT = np.dtype(
         ('ny', 'f8'),
         ('closing', 'f8'),  # m/s, before
         ('separation', 'f8'),  # m/s, wanted at least
+        ('repeats', 'i8'),  # as `separation_speed` has them
+        ('presses', 'i8'),
         ('impulse', 'f8'),  # N s
         ('change', 'f8'),
         ('compliance', 'f8'),  # 1/kg
@@ -57,6 +59,7 @@ class ContactGroup(NamedTuple):
     contacts: NDArray[np.void]  # of CONTACT
     members: NDArray[np.int64]  # (n,): numbers of the balls in the group
     by_ball: NDArray[np.void]  # (n,) of MEMBER
+    problem: Problem
 
 
 def new_group(n: int) -> ContactGroup:
@@ -64,7 +67,8 @@ def new_group(n: int) -> ContactGroup:
 
     Circles that do not overlap have at most 3 n contacts among them, and 4 n with four cushions.
     """
-    group = ContactGroup(np.zeros(7 * n, CONTACT), np.zeros(n, np.int64), np.zeros(n, MEMBER))
+    contacts, members = np.zeros(7 * n, CONTACT), np.zeros(n, np.int64)
+    group = ContactGroup(contacts, members, np.zeros(n, MEMBER), new_problem())
     group.by_ball['index'] = -1
     return group
 
@@ -95,33 +99,22 @@ def closing_speed(group: ContactGroup, a: int, b: int, nx: float, ny: float) -> 
 
 @kernel
 def add_contact(
-    group: ContactGroup,
-    count: int,
-    a: int,
-    b: int,
-    normal: tuple[float, float],
-    slowest: float,
+    group: ContactGroup, count: int, a: int, b: int, normal: tuple[float, float]
 ) -> int:
-    """Append a contact, of two balls the lower first, if it closes faster than `slowest`, m/s.
-
-    Returns how many there are then.
-    """
+    """Append a contact, of two balls the lower first; return how many there are then."""
     nx, ny = normal
     if b >= 0 and b < a:
         a, b, nx, ny = b, a, -nx, -ny
-    closing = closing_speed(group, a, b, nx, ny)
-    if not closing > slowest:
-        return count
     contact = group.contacts[count]
     contact.a, contact.b = a, b
     contact.nx, contact.ny = nx, ny
-    contact.closing = closing
+    contact.closing = closing_speed(group, a, b, nx, ny)
     return count + 1
 
 
 @kernel
-def gather(state: State, a: int, b: int, now: float, slowest: float) -> tuple[int, int]:
-    """Collect the contacts of this instant among all that hangs together with a contact.
+def gather(state: State, a: int, b: int, now: float, touching: float) -> tuple[int, int]:
+    """Collect all that hangs together with a contact that is due.
 
     What touches hangs together, whether it closes or not: one contact's push may reach the next
     one within the instant, and which is resolved with which must not depend on their order.
@@ -131,16 +124,16 @@ def gather(state: State, a: int, b: int, now: float, slowest: float) -> tuple[in
     state : State
         Its group is filled.
     a, b : int
-        The contact that is due: a ball, and a ball or a cushion.
+        The contact: a ball, and a ball or a cushion.
     now : float
         s.
-    slowest : float
-        Contacts take part where they close faster than this, m/s.
+    touching : float
+        Gap up to which things are in contact, m.
 
     Returns
     -------
     contacts, members : int
-        How many contacts take part, and how many balls are in them.
+        How many contacts and how many balls there are.
     """
     table, balls, group, boundary = state.table, state.balls, state.group, state.table.boundary
     members = join(state, NONE, a, now)
@@ -152,37 +145,36 @@ def gather(state: State, a: int, b: int, now: float, slowest: float) -> tuple[in
         i = group.members[done]
         x, y = position_at(balls[i], table, now)
         for cushion in range(n_cushions(boundary)):
-            if cushion_gap(boundary, cushion, x, y, balls[i].radius) <= TOUCHING:
+            if cushion_gap(boundary, cushion, x, y, balls[i].radius) <= touching:
                 normal = cushion_normal(boundary, cushion, x, y)
-                count = add_contact(group, count, i, partner_of_cushion(cushion), normal, slowest)
+                count = add_contact(group, count, i, partner_of_cushion(cushion), normal)
         for m in range(neighbours(balls, state.grid, i)):
             k = state.grid.near[m]
             if k == i or 0 <= group.by_ball[k].index < done:
                 continue
             xk, yk = position_at(balls[k], table, now)
             dx, dy = xk - x, yk - y
-            near = balls[i].radius + balls[k].radius + TOUCHING
+            near = balls[i].radius + balls[k].radius + touching
             if dx * dx + dy * dy <= near * near:
                 members = join(state, members, k, now)
-                count = add_contact(group, count, i, k, contact_normal(dx, dy), slowest)
+                count = add_contact(group, count, i, k, contact_normal(dx, dy))
         done += 1
-    return count, keep_those_in_contact(group, count, members)
+    return count, members
 
 
 @kernel
-def take_alone(state: State, a: int, b: int, now: float) -> tuple[int, int]:
-    """Collect only the contact of ball `a` with `b`, even if rounding has it part already."""
-    table, balls = state.table, state.balls
-    members = join(state, NONE, a, now)
-    xa, ya = position_at(balls[a], table, now)
-    if b >= 0:
-        members = join(state, members, b, now)
-        xb, yb = position_at(balls[b], table, now)
-        normal = contact_normal(xb - xa, yb - ya)
-    else:
-        normal = cushion_normal(table.boundary, cushion_of_partner(b), xa, ya)
-    count = add_contact(state.group, NONE, a, b, normal, -np.inf)
-    return count, keep_those_in_contact(state.group, count, members)
+def keep_closing(group: ContactGroup, count: int) -> int:
+    """Keep the contacts that close, without the weak ones where others close; return how many."""
+    fastest = 0.0
+    for c in range(count):
+        fastest = max(fastest, group.contacts[c].closing)
+    slowest = V_MIN if fastest > V_MIN else CLOSING_ROUNDING
+    kept = 0
+    for c in range(count):
+        if group.contacts[c].closing > slowest:
+            group.contacts[kept] = group.contacts[c]
+            kept += 1
+    return kept
 
 
 @kernel

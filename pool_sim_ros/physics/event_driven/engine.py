@@ -49,18 +49,19 @@ def run(state: State, until: float, most: float, max_events: int) -> int:
         if runs_away(ball, state.table, most):
             return RUNS_AWAY
         b = np.int64(ball.partner)
+        n_events = log.counts[N_EVENTS]
         idle += 1
         if ball.cell_exit_time < ball.next_contact_time:
             cross(state, a, now)
         elif b >= 0 and state.balls[b].changes != ball.partner_changes:
             ball.next_contact_time = np.inf
             predict(state, a, NONE, now)
+        elif b == PHASE_END:
+            stop(state, a, now)
         else:
+            predict_after(state, collide(state, a, b, now), now)
+        if log.counts[N_EVENTS] > n_events:
             idle = 0
-            if b == PHASE_END:
-                stop(state, a, now)
-            else:
-                predict_after(state, collide(state, a, b, now), now)
     return TOO_MANY_EVENTS
 
 

@@ -1,8 +1,9 @@
 """How fast the two sides of a contact part, where they may bounce infinitely often in finite time.
 
 What meets weakly, and again within a moment, parts a little faster each time, up to V_MIN; a ball
-that meets a cushion so stays there. A ball that rattles between others parts at V_MIN after
-MAX_ROUNDS contacts; after LAST_ROUND all that touches moves as one.
+that meets a cushion so stays there. Where something presses two balls together for long, they part
+ever faster still, so that this does not take forever. A ball that rattles between others is parted
+from all of them at once after MAX_ROUNDS contacts; after LAST_ROUND all that touches moves as one.
 """
 
 from __future__ import annotations
@@ -17,60 +18,124 @@ from pool_sim_ros.physics.jit import Record, inlined
 from pool_sim_ros.physics.tolerances import (
     COLLAPSE_GROWTH,
     LAST_ROUND,
+    MAX_PRESSES,
     MAX_REPEATS,
+    MAX_ROUNDS,
+    PRESS_GROWTH,
+    PRESS_MARGIN,
+    PRESS_WINDOW,
     REPEAT_WINDOW,
     ROUND,
+    SETTLE_EVERY,
+    STEADY_PRESSES,
     V_MIN,
     V_ROUNDING,
 )
 
 
 @inlined
+def rounds_of(ball: Record, now: float) -> int:
+    """Return how many contacts a ball has had in a rattle up to now.
+
+    A ball that rattled long may be pressed from both sides: for a while it counts as one that has
+    just done so.
+    """
+    if now - ball.last_contact_time < ROUND:
+        return ball.rounds
+    pressed = ball.rounds > MAX_ROUNDS and now - ball.last_contact_time < PRESS_WINDOW
+    return MAX_ROUNDS + 1 if pressed else 0
+
+
+@inlined
 def rounds_at(balls: NDArray[np.void], a: int, b: int, now: float) -> int:
-    """Return how many contacts the more stricken of two balls has had in a rattle up to now."""
-    rounds = balls[a].rounds if now - balls[a].last_contact_time < ROUND else 0
-    if b >= 0 and now - balls[b].last_contact_time < ROUND:
-        rounds = max(rounds, balls[b].rounds)
-    return rounds
+    """Return `rounds_of` the more stricken of a ball and its partner, a ball or a cushion."""
+    rounds = rounds_of(balls[a], now)
+    return max(rounds, rounds_of(balls[b], now)) if b >= 0 else rounds
 
 
 @inlined
 def count_round(ball: Record, now: float) -> None:
     """Count a contact of a ball at `now`, s."""
-    again = now - ball.last_contact_time < ROUND
-    ball.rounds = min(ball.rounds, LAST_ROUND) + 1 if again else 1
+    if now - ball.last_contact_time < ROUND:
+        ball.rounds = min(ball.rounds, LAST_ROUND) + 1
+    else:
+        ball.rounds = max(rounds_of(ball, now), 1)
     ball.last_contact_time = now
 
 
 @inlined
+def is_pressed(balls: NDArray[np.void], a: int, b: int, now: float) -> bool:
+    """Return whether a contact has been weak so often that something presses its two sides."""
+    presses = balls[a].presses if now - balls[a].last_contact_time < PRESS_WINDOW else 0
+    if b >= 0 and now - balls[b].last_contact_time < PRESS_WINDOW:
+        presses = max(presses, balls[b].presses)
+    return presses > STEADY_PRESSES
+
+
+@inlined
+def least_when_pressed(presses: int) -> float:
+    """Return the speed in m/s at which a weak contact parts, after so many before it."""
+    return V_MIN * PRESS_GROWTH ** (presses - STEADY_PRESSES)
+
+
+@inlined
 def separation_speed(
-    balls: NDArray[np.void], table: Any, a: int, b: int, closing: float, now: float
-) -> float:
+    balls: NDArray[np.void],
+    table: Any,
+    a: int,
+    b: int,
+    speeds: tuple[float, float],
+    now: float,
+) -> tuple[float, int, int]:
     """Return the speed in m/s at which the two sides of a contact are to part.
 
     Parameters
     ----------
     balls : ndarray
-        The repeats of weak contacts are counted in them.
     table : named tuple
     a, b : int
         A ball, and a ball or a cushion.
-    closing : float
-        Speed at which they meet, m/s.
+    speeds : tuple of float
+        The speed at which they meet, m/s, and the square of that of the slower of two balls.
     now : float
         s.
+
+    Returns
+    -------
+    speed : float
+    repeats, presses : int
+        Of a weak contact of balls, to be kept in both: how many follow each other at once, and how
+        many over a while. -1 for any other contact.
     """
-    closing = max(closing, 0.0)
+    closing = max(speeds[0], 0.0)
     if b < 0:
         again = closing <= V_MIN and now - balls[a].last_contact_time < REPEAT_WINDOW
-        return 0.0 if again else table.e_ball_cushion * closing
+        return 0.0 if again else table.e_ball_cushion * closing, -1, -1
     parting = restitution(table, balls[a].is_cue, balls[b].is_cue) * closing
+    since = now - max(balls[a].last_contact_time, balls[b].last_contact_time)
+    presses = 0
+    if since < PRESS_WINDOW:
+        presses = max(balls[a].presses, balls[b].presses) + 1
+        if presses > MAX_PRESSES:
+            presses -= SETTLE_EVERY
+    least = least_when_pressed(presses)
+    if presses > STEADY_PRESSES and closing <= PRESS_MARGIN * least:
+        # What lies still presses nothing; and now and then two that move may just go on together.
+        if speeds[1] <= V_MIN * V_MIN or presses % SETTLE_EVERY == 0:
+            least = V_ROUNDING
+        return least, MAX_REPEATS, presses
     if closing > V_MIN:
-        return parting
+        return parting, -1, -1
     repeats = 0
-    last_contact_time = max(balls[a].last_contact_time, balls[b].last_contact_time)
-    if now - last_contact_time < REPEAT_WINDOW:
+    if since < REPEAT_WINDOW:
         repeats = min(max(balls[a].repeats, balls[b].repeats) + 1, MAX_REPEATS)
-    balls[a].repeats = repeats
-    balls[b].repeats = repeats
-    return max(parting, min(V_MIN, V_ROUNDING * COLLAPSE_GROWTH**repeats))
+    least = min(V_MIN, V_ROUNDING * COLLAPSE_GROWTH**repeats)
+    return max(parting, least), repeats, presses
+
+
+@inlined
+def keep_counts(balls: NDArray[np.void], a: int, b: int, repeats: int, presses: int) -> None:
+    """Keep how often a contact was weak, where it was."""
+    if repeats >= 0:
+        balls[a].repeats = balls[b].repeats = repeats
+        balls[a].presses = balls[b].presses = presses

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from pool_sim_ros.physics.boundary import (
     cushion_normal,
     cushion_of_partner,
@@ -14,11 +11,19 @@ from pool_sim_ros.physics.boundary import (
 )
 from pool_sim_ros.physics.contacts import collide_balls, collide_cushion, contact_normal
 from pool_sim_ros.physics.event_driven.cell_grid import all_moving, has_few
-from pool_sim_ros.physics.event_driven.contact_group import gather, take_alone
+from pool_sim_ros.physics.event_driven.contact_group import (
+    ContactGroup,
+    gather,
+    keep_closing,
+    keep_those_in_contact,
+)
 from pool_sim_ros.physics.event_driven.few_balls import touches_resting
 from pool_sim_ros.physics.event_driven.inelastic_collapse import (
     count_round,
+    is_pressed,
+    keep_counts,
     rounds_at,
+    rounds_of,
     separation_speed,
 )
 from pool_sim_ros.physics.event_driven.simultaneous import move_as_one, resolve
@@ -26,7 +31,14 @@ from pool_sim_ros.physics.event_driven.state import State
 from pool_sim_ros.physics.jit import inlined, kernel
 from pool_sim_ros.physics.log import BALL_BALL, CUSHION, log_event, log_hit, log_segment
 from pool_sim_ros.physics.motion import RESTS, acceleration, position_at, set_off, velocity_at
-from pool_sim_ros.physics.tolerances import LAST_ROUND, MAX_ROUNDS, TOUCHING, V_MIN
+from pool_sim_ros.physics.tolerances import (
+    CLOSING_ROUNDING,
+    LAST_ROUND,
+    MAX_ROUNDS,
+    PRESS_TOUCHING,
+    TOUCHING,
+    V_MIN,
+)
 
 
 @inlined
@@ -37,9 +49,10 @@ def collide(state: State, a: int, b: int, now: float) -> int:
     """
     changed = state.group.members
     if not stands_alone(state, a, b, now):
-        contacts, members = gather_group(state, a, b, now)
-        hit_group(state, contacts, members, now)
-        return members
+        contacts, members, rounds = gather_group(state, a, b, now)
+        if contacts > 0:
+            hit_group(state, (contacts, members), rounds, now)
+            return members
     if b >= 0:
         hit_ball(state, min(a, b), max(a, b), now)
         changed[0], changed[1] = a, b
@@ -55,7 +68,7 @@ def stands_alone(state: State, a: int, b: int, now: float) -> bool:
 
     That is: nothing else touches either at this instant, and neither rattles.
     """
-    if rounds_at(state.balls, a, b, now) > MAX_ROUNDS:
+    if rounds_at(state.balls, a, b, now) > MAX_ROUNDS or is_pressed(state.balls, a, b, now):
         return False
     if is_touched(state, a, b, now):
         return False
@@ -123,10 +136,14 @@ def hit_ball(state: State, a: int, b: int, now: float) -> None:
     normal = contact_normal(balls[b].x - balls[a].x, balls[b].y - balls[a].y)
     nx, ny = normal
     closing = (va[0] - vb[0]) * nx + (va[1] - vb[1]) * ny
-    parting = separation_speed(balls, table, a, b, closing, now)
-    inverse_masses = balls[a].inverse_mass, balls[b].inverse_mass
-    va, vb = collide_balls(table, va, vb, normal, inverse_masses, parting)
-    log_contact(state, a, b, normal, closing, now)
+    slower = min(va[0] * va[0] + va[1] * va[1], vb[0] * vb[0] + vb[1] * vb[1])
+    parting, repeats, presses = separation_speed(balls, table, a, b, (closing, slower), now)
+    keep_counts(balls, a, b, repeats, presses)
+    # A contact that rounding has part already pushes nothing.
+    if closing + parting > 0.0:
+        inverse_masses = balls[a].inverse_mass, balls[b].inverse_mass
+        va, vb = collide_balls(table, va, vb, normal, inverse_masses, parting)
+        log_contact(state, a, b, normal, closing, now)
     leave_contact(state, a, va, now)
     leave_contact(state, b, vb, now)
 
@@ -139,38 +156,46 @@ def hit_cushion(state: State, a: int, partner: int, now: float) -> None:
     velocity = bring_to(state, a, now)
     normal = cushion_normal(boundary, cushion, balls[a].x, balls[a].y)
     closing = velocity[0] * normal[0] + velocity[1] * normal[1]
-    parting = separation_speed(balls, table, a, partner, closing, now)
-    log_contact(state, a, partner, normal, closing, now)
-    along, across = to_cushion_axes(boundary, cushion, normal, velocity)
-    along, across = collide_cushion(table, along, across, parting)
-    velocity = from_cushion_axes(boundary, cushion, normal, (along, across))
+    parting, _, _ = separation_speed(balls, table, a, partner, (closing, 0.0), now)
+    if closing > 0.0:
+        if closing > CLOSING_ROUNDING or parting > 0.0:
+            log_contact(state, a, partner, normal, closing, now)
+        along, across = to_cushion_axes(boundary, cushion, normal, velocity)
+        along, across = collide_cushion(table, along, across, parting)
+        velocity = from_cushion_axes(boundary, cushion, normal, (along, across))
     leave_contact(state, a, velocity, now)
 
 
 @kernel
-def gather_group(state: State, a: int, b: int, now: float) -> tuple[int, int]:
-    """Collect the contacts to be resolved together; return their and the balls' number."""
-    if rounds_at(state.balls, a, b, now) > MAX_ROUNDS:
-        return gather(state, a, b, now, -np.inf)
-    count, members = gather(state, a, b, now, V_MIN)
-    if count == 0:
-        count, members = gather(state, a, b, now, 0.0)
-    if count == 0:
-        count, members = take_alone(state, a, b, now)
-    return count, members
+def gather_group(state: State, a: int, b: int, now: float) -> tuple[int, int, int]:
+    """Collect the contacts to be resolved together.
+
+    The longest rattle of all that touches decides for all of it: if two neighbours were each to
+    go by their own, they could take turns for ever.
+
+    Returns
+    -------
+    contacts, members, rounds : int
+        Their number, which may be 0, that of the balls in them, and the contacts so far in the
+        longest rattle.
+    """
+    group = state.group
+    pressed = is_pressed(state.balls, a, b, now)
+    count, members = gather(state, a, b, now, PRESS_TOUCHING if pressed else TOUCHING)
+    rounds = MAX_ROUNDS + 1 if pressed else 0
+    for m in range(members):
+        rounds = max(rounds, rounds_of(state.balls[group.members[m]], now))
+    if rounds <= MAX_ROUNDS:
+        count = keep_closing(group, count)
+    return count, keep_those_in_contact(group, count, members), rounds
 
 
 @kernel
-def hit_group(state: State, count: int, members: int, now: float) -> None:
-    """Resolve the contacts of a group, which `gather_group` collected."""
-    table, balls, group = state.table, state.balls, state.group
-    rounds = most_rounds(balls, group.contacts, count, now)
-    for c in range(count):
-        one = group.contacts[c]
-        if rounds > MAX_ROUNDS:
-            one.separation = V_MIN if one.closing > 0.0 else 0.0
-        else:
-            one.separation = separation_speed(balls, table, one.a, one.b, one.closing, now)
+def hit_group(state: State, counts: tuple[int, int], rounds: int, now: float) -> None:
+    """Resolve the contacts of a group, which `gather_group` collected and counted."""
+    count, members = counts
+    balls, group = state.balls, state.group
+    want_separation(state, count, rounds, now)
     if rounds > LAST_ROUND:
         move_as_one(balls, group, count, members)
     else:
@@ -179,26 +204,54 @@ def hit_group(state: State, count: int, members: int, now: float) -> None:
         bring_to(state, group.members[m], now)
     for c in range(count):
         one = group.contacts[c]
-        log_contact(state, one.a, one.b, (one.nx, one.ny), one.closing, now)
+        if one.impulse > 0.0:
+            log_contact(state, one.a, one.b, (one.nx, one.ny), one.closing, now)
     for m in range(members):
         i = group.members[m]
         leave_contact(state, i, (group.by_ball[i].vx, group.by_ball[i].vy), now)
 
 
 @inlined
-def most_rounds(balls: NDArray[np.void], contacts: NDArray[np.void], count: int, now: float) -> int:
-    """Return the most that `rounds_at` has for one of the first `count` contacts."""
-    rounds = 0
+def slower_of(group: ContactGroup, a: int, b: int) -> float:
+    """Return the square of the speed of the slower of two members, m^2/s^2; 0 at a cushion."""
+    if b < 0:
+        return 0.0
+    one, other = group.by_ball[a], group.by_ball[b]
+    return min(one.vx * one.vx + one.vy * one.vy, other.vx * other.vx + other.vy * other.vy)
+
+
+@inlined
+def want_separation(state: State, count: int, rounds: int, now: float) -> None:
+    """Set how fast the two sides of each of `count` contacts are to part."""
+    table, balls, group = state.table, state.balls, state.group
     for c in range(count):
-        rounds = max(rounds, rounds_at(balls, contacts[c].a, contacts[c].b, now))
-    return rounds
+        one = group.contacts[c]
+        speeds = one.closing, slower_of(group, one.a, one.b)
+        speed, repeats, presses = separation_speed(balls, table, one.a, one.b, speeds, now)
+        if rounds > MAX_ROUNDS and one.closing < -CLOSING_ROUNDING:
+            # It parts; the others must not press it together again.
+            speed = 0.0
+        elif rounds > MAX_ROUNDS + 1 or (rounds > MAX_ROUNDS and one.b < 0):
+            speed = V_MIN
+        one.separation, one.repeats, one.presses = speed, repeats, presses
+    # Only now, lest the next contact of the same ball should count this one too.
+    for c in range(count):
+        one = group.contacts[c]
+        keep_counts(balls, one.a, one.b, min(one.repeats, 0), 0)
+    for c in range(count):
+        one = group.contacts[c]
+        if one.repeats >= 0:
+            repeats = max(one.repeats, max(balls[one.a].repeats, balls[one.b].repeats))
+            presses = max(one.presses, max(balls[one.a].presses, balls[one.b].presses))
+            keep_counts(balls, one.a, one.b, repeats, presses)
 
 
 @inlined
 def log_contact(
     state: State, a: int, b: int, normal: tuple[float, float], closing: float, now: float
 ) -> None:
-    """Write a contact down."""
+    """Write a contact that pushes down."""
+    closing = max(closing, 0.0)
     ball, log = state.balls[a], state.log
     point = ball.x + normal[0] * ball.radius, ball.y + normal[1] * ball.radius
     if b >= 0:

@@ -11,9 +11,21 @@ from numpy.typing import NDArray
 
 from pool_sim_ros.physics.contacts import rub_balls, rub_cushion
 from pool_sim_ros.physics.event_driven.contact_group import ContactGroup, closing_speed
+from pool_sim_ros.physics.event_driven.linear_complementarity import (
+    FOUND,
+    GIVEN,
+    MAX_DIRECT,
+    solve,
+)
 from pool_sim_ros.physics.event_driven.state import State
-from pool_sim_ros.physics.jit import Record, kernel
-from pool_sim_ros.physics.tolerances import IMPULSE_PRECISION, MAX_ITERATIONS
+from pool_sim_ros.physics.jit import Record, inlined, kernel
+from pool_sim_ros.physics.tolerances import (
+    CLOSING_ROUNDING,
+    EASY_ITERATIONS,
+    EASY_MASS_RATIO,
+    IMPULSE_PRECISION,
+    MAX_ITERATIONS,
+)
 
 
 @kernel
@@ -50,19 +62,47 @@ def find_normal_impulses(
     """Apply the least normal impulses after which every contact parts as fast as it must.
 
     Solves ``0 <= L``, ``u(L) >= s``, ``L (u(L) - s) = 0`` for the separation speeds u and those
-    wanted, s, in m/s. The method is projected Jacobi from zero with a step of 1 / sum |G_kl|: it
-    takes all contacts at once, and is safe where contacts outnumber the freedoms.
+    wanted, s, in m/s. Balls of like mass are soon done by iteration; where the masses differ much
+    that takes forever, and a few contacts are solved directly.
+    """
+    few = count <= MAX_DIRECT
+    for c in range(count):
+        group.contacts[c].impulse = 0.0
+    if few and mass_ratio(balls, group, members) > EASY_MASS_RATIO:
+        solve_directly(balls, group, count)
+    elif not iterate(balls, group, count, members, EASY_ITERATIONS if few else MAX_ITERATIONS):
+        if few:
+            solve_directly(balls, group, count)
+
+
+@inlined
+def mass_ratio(balls: NDArray[np.void], group: ContactGroup, members: int) -> float:
+    """Return the ratio of the largest mass of the members to the smallest."""
+    least, most = np.inf, 0.0
+    for m in range(members):
+        inverse_mass = balls[group.members[m]].inverse_mass
+        least, most = min(least, inverse_mass), max(most, inverse_mass)
+    return most / least
+
+
+@kernel
+def iterate(
+    balls: NDArray[np.void], group: ContactGroup, count: int, members: int, most: int
+) -> bool:
+    """Apply impulses by at most so many iterations; return whether they are found then.
+
+    The method is projected Jacobi from zero with a step of 1 / sum |G_kl|: it takes all contacts at
+    once, and is safe where contacts outnumber the freedoms.
     """
     scale = 0.0
     for c in range(count):
         contact = group.contacts[c]
-        contact.impulse = 0.0
         contact.compliance = total_compliance(balls, group, count, c)
         scale = max(scale, abs(contact.closing) + contact.separation)
     for m in range(members):
         member = group.by_ball[group.members[m]]
         scale = max(scale, abs(member.vx) + abs(member.vy))
-    for _ in range(MAX_ITERATIONS):
+    for _ in range(most):
         largest = 0.0
         for c in range(count):
             contact = group.contacts[c]
@@ -75,7 +115,42 @@ def find_normal_impulses(
             contact.impulse += contact.change
             push(balls, group, contact, contact.change)
         if largest <= IMPULSE_PRECISION * scale:
-            break
+            return True
+    return False
+
+
+@kernel
+def solve_directly(balls: NDArray[np.void], group: ContactGroup, count: int) -> None:
+    """Apply impulses that are found as a linear complementarity problem."""
+    problem = group.problem
+    for c in range(count):
+        one = group.contacts[c]
+        problem.vectors[GIVEN, c] = one.closing + one.separation
+        for k in range(count):
+            problem.matrix[c, k] = compliance_of(balls, one, group.contacts[k])
+    solve(problem, count)
+    for c in range(count):
+        one = group.contacts[c]
+        found = problem.vectors[FOUND, c]
+        push(balls, group, one, found - one.impulse)
+        one.impulse = found
+
+
+@inlined
+def compliance_of(balls: NDArray[np.void], one: Record, other: Record) -> float:
+    """Return how fast an impulse at another contact parts the sides of one, 1/kg."""
+    along = one.nx * other.nx + one.ny * other.ny
+    total = 0.0
+    if one.a == other.a:
+        total += along * balls[one.a].inverse_mass
+    elif one.a == other.b:
+        total -= along * balls[one.a].inverse_mass
+    if one.b >= 0:
+        if one.b == other.b:
+            total += along * balls[one.b].inverse_mass
+        elif one.b == other.a:
+            total -= along * balls[one.b].inverse_mass
+    return total
 
 
 @kernel
@@ -157,7 +232,10 @@ def turn(group: ContactGroup, ball: int, nx: float, ny: float, change: float) ->
 
 @kernel
 def move_as_one(balls: NDArray[np.void], group: ContactGroup, count: int, members: int) -> None:
-    """Give all members their common velocity, less what goes into a cushion they touch."""
+    """Give all members their common velocity, less what goes into a cushion they touch.
+
+    No impulses are found; those that closed are given what stopped them, for the log.
+    """
     mass, px, py = 0.0, 0.0, 0.0
     for m in range(members):
         ball = group.members[m]
@@ -167,6 +245,11 @@ def move_as_one(balls: NDArray[np.void], group: ContactGroup, count: int, member
     vx, vy = px / mass, py / mass
     for c in range(count):
         contact = group.contacts[c]
+        inverse_mass = balls[contact.a].inverse_mass
+        if contact.b >= 0:
+            inverse_mass += balls[contact.b].inverse_mass
+        closes = contact.closing > CLOSING_ROUNDING
+        contact.impulse = contact.closing / inverse_mass if closes else 0.0
         into = vx * contact.nx + vy * contact.ny
         if contact.b < 0 and into > 0.0:
             vx -= into * contact.nx

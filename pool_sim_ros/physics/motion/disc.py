@@ -48,7 +48,8 @@ DISC = np.dtype(
         ('cell_y', 'i4'),
         ('previous', 'i4'),  # the ball before it in its cell; -1 for none
         ('repeats', 'i2'),  # weak contacts in quick succession, up to now
-        ('rounds', 'i2'),  # contacts in the rattle that `last_contact_time` belongs to
+        ('presses', 'i2'),  # the same over a while: something presses it to others
+        ('rounds', 'i8'),  # contacts in the rattle that `last_contact_time` belongs to
     ],
     align=True,
 )

@@ -57,7 +57,7 @@ def meet_cushions(state: Slices, i: int, now: float) -> None:
         nx, ny = (into, 0.0) if axis == 0 else (0.0, into)
         point = state.x[i, 0] + nx * radius, state.x[i, 1] + ny * radius
         cushion = 2 * axis + (1 if high else 0)
-        log_event(state.log, now, CUSHION, (i, cushion), point, (nx, ny), into * old)
+        log_event(state.log, now, CUSHION, (i, cushion), point, (nx, ny), max(into * old, 0.0))
 
 
 @kernel
@@ -136,7 +136,8 @@ def collide(state: Slices, a: int, b: int, now: float) -> None:
         new_a_t = report_friction(a_t, b_t, a_n - new_a_n, table.mu_ball_ball)
         new_b_t = report_friction(b_t, a_t, b_n - new_b_n, table.mu_ball_ball)
     point = state.x[a, 0] + cos * balls[a].radius, state.x[a, 1] + sin * balls[a].radius
-    log_event(state.log, now, BALL_BALL, (a, b), point, (cos, sin), a_n - b_n)
+    # The listing does not ask whether they approach: a contact of balls that part pulls them.
+    log_event(state.log, now, BALL_BALL, (a, b), point, (cos, sin), max(a_n - b_n, 0.0))
     log_hit(state.log, a, b, table.cue_ball)
     cos, sin = math.cos(-angle), math.sin(-angle)
     state.v[a, 0] = new_a_n * cos + new_a_t * sin

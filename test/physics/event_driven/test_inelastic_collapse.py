@@ -9,23 +9,38 @@ from tables import table_of
 
 from pool_sim_ros.physics.event_driven.inelastic_collapse import (
     count_round,
+    is_pressed,
+    keep_counts,
     rounds_at,
     separation_speed,
 )
 from pool_sim_ros.physics.tolerances import (
     COLLAPSE_GROWTH,
     LAST_ROUND,
+    MAX_PRESSES,
     MAX_REPEATS,
+    MAX_ROUNDS,
+    PRESS_GROWTH,
+    PRESS_WINDOW,
     REPEAT_WINDOW,
     ROUND,
+    SETTLE_EVERY,
+    STEADY_PRESSES,
     V_MIN,
     V_ROUNDING,
 )
 
 
 @njit
-def part(balls, table, a, b, closing, now):
-    return separation_speed(balls, table, a, b, closing, now)
+def part(balls, table, a, b, closing, now, slower=1.0):
+    speed, repeats, presses = separation_speed(balls, table, a, b, (closing, slower), now)
+    keep_counts(balls, a, b, repeats, presses)
+    return speed
+
+
+@njit
+def pressed(balls, a, b, now):
+    return is_pressed(balls, a, b, now)
 
 
 @njit
@@ -100,6 +115,10 @@ def test_rounds_of_a_rattle_are_counted_until_the_bound(balls):
         assert balls['last_contact_time'][0] == now
         now += 0.5 * ROUND
     count(balls, 0, now + 2 * ROUND)
+    assert balls['rounds'][0] == MAX_ROUNDS + 1, 'it may be pressed'
+    count(balls, 0, now + 2 * PRESS_WINDOW)
+    assert balls['rounds'][0] == 1
+    count(balls, 0, now + 2 * PRESS_WINDOW + 2 * ROUND)
     assert balls['rounds'][0] == 1
 
 
@@ -109,7 +128,37 @@ def test_the_more_stricken_of_two_counts(balls):
         balls['rounds'] = rng.integers(0, 300, 3)
         balls['last_contact_time'] = 1.0 - rng.choice([0.1, 0.9, 1.5, 1e6], 3) * ROUND
         balls['last_contact_time'][rng.integers(3)] = -math.inf
-        fresh = np.where(1.0 - balls['last_contact_time'] < ROUND, balls['rounds'], 0)
+        since = 1.0 - balls['last_contact_time']
+        kept = np.where((since < PRESS_WINDOW) & (balls['rounds'] > MAX_ROUNDS), MAX_ROUNDS + 1, 0)
+        fresh = np.where(since < ROUND, balls['rounds'], kept)
         for a, b in ((0, 1), (2, 1), (0, -1), (1, -4)):
             expected = max(fresh[a], fresh[b]) if b >= 0 else fresh[a]
             assert rounds(balls, a, b, 1.0) == expected
+
+
+def test_what_is_pressed_for_long_parts_ever_faster_up_to_a_bound(table, balls):
+    """Twice as fast takes twice as long, so that pressing has no end of contacts."""
+    now, speeds = 1.0, []
+    for _ in range(MAX_PRESSES + 100):
+        speeds.append(part(balls, table.for_kernels, 1, 2, 0.0, now))
+        balls['last_contact_time'][[1, 2]] = now
+        now += 0.5 * PRESS_WINDOW
+    assert not pressed(balls, 0, 0, now)
+    assert pressed(balls, 1, 0, now) and pressed(balls, 0, 2, now) and pressed(balls, 2, -3, now)
+    assert max(speeds[:STEADY_PRESSES]) <= V_MIN
+    late = np.array(speeds[STEADY_PRESSES + 1 :])
+    settled = late == V_ROUNDING
+    assert abs(settled.sum() - len(late) / SETTLE_EVERY) <= 1
+    grown = late[~settled]
+    assert np.all(np.diff(grown[:100]) > 0.0)
+    assert grown.max() <= V_MIN * PRESS_GROWTH ** (MAX_PRESSES - STEADY_PRESSES)
+    assert not pressed(balls, 1, 2, now + PRESS_WINDOW)
+
+
+def test_what_lies_still_is_left_there(table, balls):
+    balls['presses'], balls['last_contact_time'] = STEADY_PRESSES + 100, 1.0
+    assert part(balls, table.for_kernels, 1, 2, 1e-5, 1.01, slower=0.0) == V_ROUNDING
+    balls['presses'] = STEADY_PRESSES + 100
+    assert part(balls, table.for_kernels, 1, 2, 1e-5, 1.01, slower=1.0) > V_MIN
+    balls['presses'] = STEADY_PRESSES + 100
+    assert part(balls, table.for_kernels, 1, 2, 1.0, 1.01) == 0.9, 'a strong contact is one still'

@@ -1,7 +1,5 @@
 """Impulses of several contacts at one instant, against the plain twin that tries every set."""
 
-import math
-
 import naive_events
 import numpy as np
 import pytest
@@ -9,18 +7,30 @@ from clusters import clusters, moving
 from numba import njit
 from tables import LAWS, table_of, under
 
-from pool_sim_ros.physics.event_driven.contact_group import gather
+from pool_sim_ros.physics.event_driven.contact_group import (
+    gather,
+    keep_closing,
+    keep_those_in_contact,
+)
 from pool_sim_ros.physics.event_driven.simultaneous import (
     find_normal_impulses,
     move_as_one,
     resolve,
     total_compliance,
 )
+from pool_sim_ros.physics.tolerances import TOUCHING
+
+
+@njit
+def closing(state, a, b):
+    count, members = gather(state, a, b, 0.0, TOUCHING)
+    count = keep_closing(state.group, count)
+    return count, keep_those_in_contact(state.group, count, members)
 
 
 @njit
 def solve(state, a, b, e):
-    count, members = gather(state, a, b, 0.0, 1e-4)
+    count, members = closing(state, a, b)
     for c in range(count):
         state.group.contacts[c].separation = e * state.group.contacts[c].closing
     if count > 0:
@@ -30,7 +40,7 @@ def solve(state, a, b, e):
 
 @njit
 def resolved(state, a, b, e):
-    count, members = gather(state, a, b, 0.0, 1e-4)
+    count, members = closing(state, a, b)
     for c in range(count):
         state.group.contacts[c].separation = e * state.group.contacts[c].closing
     resolve(state, count, members)
@@ -39,7 +49,7 @@ def resolved(state, a, b, e):
 
 @njit
 def as_one(state, a, b):
-    count, members = gather(state, a, b, 0.0, -math.inf)
+    count, members = gather(state, a, b, 0.0, TOUCHING)
     move_as_one(state.balls, state.group, count, members)
     return count, members
 
