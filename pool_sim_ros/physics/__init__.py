@@ -15,8 +15,14 @@ from pool_sim_ros.lazy import lazy_exports
 from pool_sim_ros.physics.units import INCH
 
 if TYPE_CHECKING:
-    from pool_sim_ros.physics.contacts import TwoBallCollision, two_ball_collision
+    from pool_sim_ros.physics.contacts import (
+        TwoBallCollision,
+        collide_balls,
+        collide_cushion,
+        two_ball_collision,
+    )
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
+    from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
     from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
@@ -40,7 +46,11 @@ else:
             'Table': 'table',
             'Trajectory': 'trajectory',
             'TwoBallCollision': 'contacts',
+            'CushionModel': 'law_names',
+            'FrictionBound': 'law_names',
             'check_layout': 'validation',
+            'collide_balls': 'contacts',
+            'collide_cushion': 'contacts',
             'compile_kernels': 'shots',
             'report_table': 'me212_table',
             'simulate': 'shots',
@@ -56,7 +66,9 @@ __all__ = [
     'REPORT_TIME_SLICE',
     'Ball',
     'BallFriction',
+    'CushionModel',
     'EventKind',
+    'FrictionBound',
     'Integrator',
     'Outcomes',
     'ShotTooLong',
@@ -64,6 +76,8 @@ __all__ = [
     'Trajectory',
     'TwoBallCollision',
     'check_layout',
+    'collide_balls',
+    'collide_cushion',
     'compile_kernels',
     'report_table',
     'simulate',

@@ -72,6 +72,17 @@ IMPULSE_PRECISION = 1e-14
 MAX_SPEED = 1e6
 """Speed of a ball at the start along each axis, m/s: far beyond any shot, and nothing overflows."""
 
+MAX_SPIN = 1e9
+"""Spin of a ball at the start about each axis, rad/s: as far beyond any shot."""
+
+# Cushions with an edge
+
+ROOT_PRECISION = 4e-16
+"""Change of an angle in rad at which the end of sticking is found: about its rounding."""
+
+CUSHION_STEPS = 200
+"""Steps of the coarser of two integrations along the push of a cushion (Mathavan's model)."""
+
 # Shots that do not end
 
 RUNAWAY_GAIN = 100.0

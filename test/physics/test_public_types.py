@@ -45,6 +45,16 @@ meeting: TwoBallCollision = two_ball_collision(
 )
 angle: float = meeting.impact_angle
 diameter: float = 2 * ball.radius / INCH
+model: CushionModel = 'stronge'
+bound: FrictionBound = 'restitution'
+spin: NDArray[np.float64] = np.zeros(3)
+spin = collide_balls(
+    (1.0, 0.0, 0.0), spin, np.zeros(3), np.zeros(3), (1.0, 0.0), m1=0.17, m2=0.17, R=0.0286, e=0.95,
+    friction='alciatore', friction_bound=bound,
+)[1]
+after, spin = collide_cushion(
+    (1.0, 0.0, 0.0), spin, (1.0, 0.0), R=0.0286, h=0.0366, e=0.85, f=0.2, model=model, mu_slide=0.2
+)
 compile_kernels(table)
 laws: list[str] = [*BALL_FRICTION_LAWS, *INTEGRATORS]
 """
@@ -60,6 +70,7 @@ Table(length='2.2 m', width=1.1, balls=())
 Table(length=2.2, width=1.1, balls=(), ball_friction='none')
 Table(length=2.2, width=1.1, balls=(), size=9)
 two_ball_collision(0.17, 0.17, (1.0, 0.0))
+collide_cushion((1.0, 0.0, 0.0), 3, (1.0, 0.0), R=0.03, h=0.04, e=0.9, f=0.2, model='x')
 """
 
 
