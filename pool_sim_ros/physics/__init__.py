@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         collide_cushion,
         two_ball_collision,
     )
+    from pool_sim_ros.physics.cue import cue_strike
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
     from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
     from pool_sim_ros.physics.log import EventKind
@@ -52,6 +53,7 @@ else:
             'collide_balls': 'contacts',
             'collide_cushion': 'contacts',
             'compile_kernels': 'shots',
+            'cue_strike': 'cue',
             'report_table': 'me212_table',
             'simulate': 'shots',
             'simulate_many': 'shots',
@@ -79,6 +81,7 @@ __all__ = [
     'collide_balls',
     'collide_cushion',
     'compile_kernels',
+    'cue_strike',
     'report_table',
     'simulate',
     'simulate_many',

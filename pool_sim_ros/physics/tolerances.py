@@ -75,6 +75,9 @@ MAX_SPEED = 1e6
 MAX_SPIN = 1e9
 """Spin of a ball at the start about each axis, rad/s: as far beyond any shot."""
 
+ROUNDING_OF_OFFSET = 1e-12
+"""Part of the radius by which the tip of a cue may be farther out than it should: rounding."""
+
 # Cushions with an edge
 
 ROOT_PRECISION = 4e-16

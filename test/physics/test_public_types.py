@@ -55,6 +55,7 @@ spin = collide_balls(
 after, spin = collide_cushion(
     (1.0, 0.0, 0.0), spin, (1.0, 0.0), R=0.0286, h=0.0366, e=0.85, f=0.2, model=model, mu_slide=0.2
 )
+velocity, spin = cue_strike(table, speed=2.0, azimuth=180.0, side=0.2, above=-0.3)
 compile_kernels(table)
 laws: list[str] = [*BALL_FRICTION_LAWS, *INTEGRATORS]
 """
@@ -70,6 +71,7 @@ Table(length='2.2 m', width=1.1, balls=())
 Table(length=2.2, width=1.1, balls=(), ball_friction='none')
 Table(length=2.2, width=1.1, balls=(), size=9)
 two_ball_collision(0.17, 0.17, (1.0, 0.0))
+cue_strike(table, 2.0)
 collide_cushion((1.0, 0.0, 0.0), 3, (1.0, 0.0), R=0.03, h=0.04, e=0.9, f=0.2, model='x')
 """
 
