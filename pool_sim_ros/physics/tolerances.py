@@ -80,6 +80,9 @@ ROUNDING_OF_OFFSET = 1e-12
 
 # Cushions with an edge
 
+UNIT_LENGTH = 1e-12
+"""What a unit normal may differ from length 1, and from a right angle to its cushion."""
+
 ROOT_PRECISION = 4e-16
 """Change of an angle in rad at which the end of sticking is found: about its rounding."""
 
