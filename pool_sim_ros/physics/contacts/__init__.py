@@ -15,7 +15,17 @@ from pool_sim_ros.physics.contacts.discs import (
     rub_cushion,
     sign,
 )
-from pool_sim_ros.physics.contacts.edge import EdgeLaw, collide_with_edge, meet_edge
+from pool_sim_ros.physics.contacts.edge import (
+    EdgeLaw,
+    collide_with_edge,
+    friction_of_edge,
+    from_contact_axes,
+    lean_of,
+    meet_edge,
+    parting_of_push,
+    to_contact_axes,
+)
+from pool_sim_ros.physics.contacts.rigid_edge import rebound
 from pool_sim_ros.physics.contacts.single import collide_balls, collide_cushion
 from pool_sim_ros.physics.contacts.spheres import (
     BallLaw,
@@ -40,12 +50,18 @@ __all__ = [
     'coulomb_impulse',
     'friction_bound',
     'friction_of_balls',
+    'friction_of_edge',
+    'from_contact_axes',
+    'lean_of',
     'meet_edge',
+    'parting_of_push',
+    'rebound',
     'report_friction',
     'restitution',
     'rub_balls',
     'rub_cushion',
     'rub_spheres',
     'sign',
+    'to_contact_axes',
     'two_ball_collision',
 ]

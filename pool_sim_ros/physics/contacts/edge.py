@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from pool_sim_ros.physics.contacts.mathavan import integrate_impulse
 from pool_sim_ros.physics.contacts.rigid_edge import (
+    Lean,
     lean_of_edge,
     lean_of_push,
     rebound,
@@ -50,6 +51,56 @@ class EdgeLaw(NamedTuple):
     mu_slide: float
 
 
+@inlined
+def lean_of(law: EdgeLaw, radius: float, nose_radius: float) -> Lean:
+    """Return the lean of the push, by model; see `rigid_edge`."""
+    if law.model == HAN or law.model == MATHAVAN:
+        return lean_of_edge(radius, law.height)
+    return lean_of_push(radius, law.height, nose_radius)
+
+
+@inlined
+def parting_of_push(law: EdgeLaw, lean: Lean, closing: float) -> float:
+    """Return how fast a ball parts along the normal after the push of the edge alone, m/s.
+
+    `closing` is its speed into the cushion. Since the push is leaned, and the ball stays on the
+    cloth, this is less than e times `closing`, and may be negative.
+    """
+    return closing * ((1.0 + law.e) * lean[0] * lean[0] - 1.0)
+
+
+@kernel
+def friction_of_edge(
+    law: EdgeLaw, v: Velocity, w: Spin, radius: float, lean: Lean, push: float
+) -> tuple[float, float]:
+    """Return the push of friction, m/s, as `rebound` takes it, in the axes of the contact.
+
+    That of `mathavan`, which is no sum of a push and friction, is that of `han` here.
+
+    Parameters
+    ----------
+    law : EdgeLaw
+    v : tuple of float
+        Velocity (n, t) before the push of the edge, m/s. In `stronge` the spring along the push
+        has this closing speed.
+    w : tuple of float
+        Spin (n, t, z), rad/s.
+    radius : float
+        Of the ball, m.
+    lean : tuple of float
+        As `lean_of` has it.
+    push : float
+        Of the edge, an impulse by mass along the lean, m/s.
+    """
+    along, across = slip_at_edge(v, w, radius, lean)
+    slip = math.sqrt(along * along + across * across)
+    if law.model == STRONGE:
+        share = compliant_share(slip, push / (1.0 + law.e), law.e, law.f)
+    else:
+        share = rigid_share(slip, push, law.f)
+    return share * along, share * across
+
+
 @kernel
 def meet_edge(
     law: EdgeLaw, v: Velocity, w: Spin, radius: float, nose_radius: float
@@ -73,22 +124,32 @@ def meet_edge(
     """
     if v[0] <= 0.0:
         return v, w
+    lean = lean_of(law, radius, nose_radius)
     if law.model == MATHAVAN:
-        lean = lean_of_edge(radius, law.height)
         return integrate_impulse(v, w, radius, lean, (law.e, law.f, law.mu_slide))
-    if law.model == HAN:
-        lean = lean_of_edge(radius, law.height)
-    else:
-        lean = lean_of_push(radius, law.height, nose_radius)
-    closing = v[0] * lean[0]
-    push = (1.0 + law.e) * closing
-    along, across = slip_at_edge(v, w, radius, lean)
-    slip = math.sqrt(along * along + across * across)
-    if law.model == STRONGE:
-        share = compliant_share(slip, closing, law.e, law.f)
-    else:
-        share = rigid_share(slip, push, law.f)
-    return rebound(v, w, radius, lean, push, (share * along, share * across))
+    push = (1.0 + law.e) * v[0] * lean[0]
+    friction = friction_of_edge(law, v, w, radius, lean, push)
+    return rebound(v, w, radius, lean, push, friction)
+
+
+@inlined
+def to_contact_axes(v: Velocity, w: Spin, normal: Velocity) -> tuple[Velocity, Spin]:
+    """Return velocity (n, t) and spin (n, t, z) of vectors along x, y (and z)."""
+    nx, ny = normal
+    return (
+        (v[0] * nx + v[1] * ny, v[1] * nx - v[0] * ny),
+        (w[0] * nx + w[1] * ny, w[1] * nx - w[0] * ny, w[2]),
+    )
+
+
+@inlined
+def from_contact_axes(v: Velocity, w: Spin, normal: Velocity) -> tuple[Velocity, Spin]:
+    """Return velocity (x, y) and spin (x, y, z), of which `to_contact_axes` gives these parts."""
+    nx, ny = normal
+    return (
+        (v[0] * nx - v[1] * ny, v[0] * ny + v[1] * nx),
+        (w[0] * nx - w[1] * ny, w[0] * ny + w[1] * nx, w[2]),
+    )
 
 
 @inlined
@@ -114,12 +175,6 @@ def collide_with_edge(
     separation : float
         The least speed at which the ball parts from the cushion, m/s.
     """
-    nx, ny = normal
-    v_local = v[0] * nx + v[1] * ny, v[1] * nx - v[0] * ny
-    w_local = w[0] * nx + w[1] * ny, w[1] * nx - w[0] * ny, w[2]
-    (v_n, v_t), (w_n, w_t, w_z) = meet_edge(law, v_local, w_local, radii[0], radii[1])
-    v_n = min(v_n, -separation)
-    return (
-        (v_n * nx - v_t * ny, v_n * ny + v_t * nx),
-        (w_n * nx - w_t * ny, w_n * ny + w_t * nx, w_z),
-    )
+    v, w = to_contact_axes(v, w, normal)
+    v, w = meet_edge(law, v, w, radii[0], radii[1])
+    return from_contact_axes((min(v[0], -separation), v[1]), w, normal)

@@ -8,7 +8,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pool_sim_ros.physics.contacts import EdgeLaw, collide_with_edge, meet_edge
+from pool_sim_ros.physics.contacts import (
+    EdgeLaw,
+    collide_with_edge,
+    friction_of_edge,
+    from_contact_axes,
+    lean_of,
+    meet_edge,
+    parting_of_push,
+    rebound,
+    to_contact_axes,
+)
 from pool_sim_ros.physics.contacts.edge import HAN, IMPULSE, MATHAVAN, STRONGE
 from pool_sim_ros.physics.law_names import CUSHION_MODELS
 
@@ -155,6 +165,54 @@ def test_a_ball_need_not_part_and_is_cut_off():
         collide_with_edge(law_of('han'), v, (0.0, 0.0, 0.0), (1.0, 0.0), (RADIUS, 0.0), 1e-4)[0][0]
         < -0.5
     )
+
+
+@pytest.mark.parametrize('model', EXACT_MODELS)
+def test_the_parts_make_the_whole(model):
+    """The push along the normal first, friction from the motion before it, as contact groups do."""
+    rng = np.random.default_rng(67)
+    for _ in range(100):
+        v, w, normal, law, nose = random_contact(rng)
+        law = law_of(model, **law)
+        lean = lean_of(law, RADIUS, nose)
+        local = to_contact_axes(v, w, normal)
+        closing = local[0][0]
+        parting = parting_of_push(law, lean, closing)
+        assert parting <= law.e * closing
+        # What changes the speed along the normal so is the push times its cosine.
+        push = (closing + parting) / lean[0]
+        friction = friction_of_edge(law, *local, RADIUS, lean, push)
+        pushed = (-parting, local[0][1]), local[1]
+        rubbed = rebound(*pushed, RADIUS, lean, 0.0, friction)
+        found = from_contact_axes(*rubbed, normal)
+        whole = collide_with_edge(law, v, w, normal, (RADIUS, nose), -1e9)
+        scale = np.abs(flat(v, w)).max()
+        np.testing.assert_allclose(flat(*found), flat(*whole), rtol=0, atol=1e-12 * scale)
+
+
+def test_friction_of_mathavan_in_a_group_is_that_of_han():
+    v, w = (1.0, 0.5), (3.0, -20.0, 40.0)
+    han, mathavan = law_of('han'), law_of('mathavan')
+    lean = lean_of(mathavan, RADIUS, 0.02)
+    assert lean == lean_of(han, RADIUS, 0.02)
+    assert friction_of_edge(mathavan, v, w, RADIUS, lean, 1.5) == friction_of_edge(
+        han, v, w, RADIUS, lean, 1.5
+    )
+
+
+def test_axes_of_a_contact_and_back():
+    rng = np.random.default_rng(68)
+    for _ in range(50):
+        v, w, normal, _, _ = random_contact(rng)
+        (v_n, v_t), (w_n, w_t, w_z) = to_contact_axes(v, w, normal)
+        tangent = (-normal[1], normal[0])
+        assert (v_n, v_t) == pytest.approx((np.dot(v, normal), np.dot(v, tangent)), abs=1e-13)
+        assert (w_n, w_t) == pytest.approx(
+            (np.dot(w[:2], normal), np.dot(w[:2], tangent)), rel=1e-12, abs=1e-9
+        )
+        again = from_contact_axes((v_n, v_t), (w_n, w_t, w_z), normal)
+        np.testing.assert_allclose(again[0], v, atol=1e-14)
+        np.testing.assert_allclose(again[1], w, rtol=1e-13, atol=1e-12)
 
 
 def test_without_a_push_nothing_changes():
