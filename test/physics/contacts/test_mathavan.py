@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from billiards import anchors
 
-from pool_sim_ros.physics.contacts import EdgeLaw, meet_edge
+from pool_sim_ros.physics.contacts import EdgeLaw, lean_of, meet_edge
 from pool_sim_ros.physics.contacts.edge import MATHAVAN
-from pool_sim_ros.physics.contacts.mathavan import held_or_slipping, length_left
+from pool_sim_ros.physics.contacts.mathavan import held_or_slipping, impulses, length_left
+from pool_sim_ros.physics.tolerances import CUSHION_STEPS
 
 SNOOKER = dict(radius=0.02625, height=1.4 * 0.02625, e=0.98, f=0.14, mu_slide=0.212)
 POOL = dict(radius=0.028575, height=1.28 * 0.028575, e=0.85, f=0.2, mu_slide=0.2)
@@ -89,6 +90,34 @@ def test_equals_euler_s_method_with_tiny_steps():
         scale = np.abs(flat((v, w), law['radius'])).max()
         worst = max(worst, np.abs(found - twin).max() / scale)
     assert worst < 2e-4
+
+
+def test_the_error_of_the_steps_is_as_small_as_the_documentation_says():
+    """Of 300 contacts with pool's coefficients, beside steps that are 20 times as short."""
+    rng = np.random.default_rng(52)
+    law = EdgeLaw(MATHAVAN, POOL['e'], POOL['f'], POOL['height'], POOL['mu_slide'])
+    lean = lean_of(law, POOL['radius'], 0.0)
+    coefficients = law.e, law.f, law.mu_slide
+    errors = []
+    for _ in range(300):
+        (vx, vy), w, _ = random_case(rng)
+        found, exact = (
+            np.array(extrapolated((vx, vy), w, POOL['radius'], lean, coefficients, steps))
+            for steps in (CUSHION_STEPS, 20 * CUSHION_STEPS)
+        )
+        scale = np.abs(flat(((vx, vy), w), POOL['radius'])).max()
+        errors.append(np.abs(found - exact).max() / scale)
+    assert max(errors) < 5e-4
+    assert np.quantile(errors, 0.99) < 5e-5
+
+
+def extrapolated(v, w, radius, lean, coefficients, steps):
+    """The impulses of friction at edge and cloth and the push; the slips by the paper's axes."""
+    (vx, vy), (wx, wy, wz), (cosine, sine) = v, w, lean
+    over_edge = vx + radius * (wy * sine - wz * cosine), radius * wx - vy * sine
+    slips = over_edge, (vx - radius * wy, vy + radius * wx)
+    coarse, fine = (np.array(impulses(slips, vy, lean, coefficients, k * steps)) for k in (1, 2))
+    return 2 * fine - coarse
 
 
 def test_friction_holds_or_is_the_most_there_is():
