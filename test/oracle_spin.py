@@ -6,12 +6,14 @@ outcome depends on less than the margins below raises `AmbiguousShotError`.
 
 `parameters` are named as in oracle.json: length, width, R, g, u_s, u_r, u_sp, e_b, e_c, f_c, h,
 friction ('constant', mu) or ('alciatore', ...), cushion ('han', 'impulse', 'stronge'), impulse
-('pooltool', 'physical').
+('pooltool', 'physical'); and, if balls differ, e_cue (contacts with ball 0) and masses. `simulate`
+takes a `Table` instead.
 """
 
 from collections import Counter, namedtuple
 
 import naive_spin
+import numpy as np
 import oracle_roots as roots
 from mpmath import mp, mpf
 from naive_spin import cross, dot, exact, plus, size, times
@@ -21,7 +23,7 @@ GRAZE = mpf('1e-9')  # m or m^2: a closest approach this near to contact may be 
 SLOW = mpf('2e-3')  # m/s: an engine's rule for sustained contact may apply to slower ones
 CLOSED = mpf('1e-30')  # m or m^2: the gap of things that touch, after rounding
 
-Result = namedtuple('Result', 'finals duration events counts pocketed')
+Result = namedtuple('Result', 'finals velocities spins duration events counts pocketed')
 Event = namedtuple('Event', 'time kind ball other')
 
 
@@ -230,6 +232,9 @@ class Play:
 
     def hit_ball(self, one, other):
         given = self.given
+        i, j = self.balls.index(one), self.balls.index(other)
+        e = given.get('e_cue', given['e_b']) if 0 in (i, j) else given['e_b']
+        masses = given.get('masses', [1] * len(self.balls))
         apart = plus(other.r, one.r, -1)
         normal = times(apart, 1 / size(apart))
         self.check_speed(dot(plus(one.v, other.v, -1), normal))
@@ -241,10 +246,10 @@ class Play:
             other.v,
             other.w,
             normal,
-            1,
-            1,
+            masses[i],
+            masses[j],
             self.R,
-            given['e_b'],
+            e,
             mu,
             'restitution' if given['impulse'] == 'pooltool' else 'impulse',
         )
@@ -287,17 +292,22 @@ class Play:
         return event.kind, event.other
 
 
-def play(parameters, places, strikes, segments=None, noses=(), pockets=(), most_events=2000):
-    """Play a shot to its end.
+def play(
+    parameters, places, strikes, segments=None, noses=(), pockets=(), most_events=2000, until=None
+):
+    """Play a shot to its end, or to the time `until`.
 
     `strikes` are rows vx, vy, wx, wy, wz, one for each ball or for the first ones. Returns finals,
-    duration, events (time, kind, ball, other), counts by kind, and the pocket of each ball or -1.
+    velocities, spins, duration, events (time, kind, ball, other), counts by kind, and the pocket of each ball or -1.
     """
     strikes = [*strikes, *[(0.0,) * 5] * (len(places) - len(strikes))]
     shot = Play(parameters, places, strikes, segments, noses, pockets)
     events = []
     while shot.next:
         event = min(shot.next.values(), key=lambda each: each.time)
+        if until is not None and event.time > until:
+            shot.advance(mpf(until) - shot.t)
+            break
         shot.check(event)
         shot.advance(event.time - shot.t)
         kind, other = shot.happen(event)
@@ -309,8 +319,75 @@ def play(parameters, places, strikes, segments=None, noses=(), pockets=(), most_
             shot.predict(event.other)
     return Result(
         [ball.r[:2] for ball in shot.balls],
+        [ball.v[:2] for ball in shot.balls],
+        [ball.w for ball in shot.balls],
         shot.t,
         events,
         dict(Counter(event.kind for event in events)),
         [ball.pocket for ball in shot.balls],
     )
+
+
+KINDS = {'ball': 0, 'cushion': 1, 'stop': 2, 'pocketed': 3, 'roll': 4}
+"""The kinds of an engine's events; the end of spinning in place is none."""
+
+
+def parameters_of(table):
+    """Return the parameters of a `Table` with the motion 'ball'."""
+    alciatore = table.ball_friction == 'alciatore'
+    return dict(
+        length=table.length,
+        width=table.width,
+        R=table.balls[0].radius,
+        g=table.gravity,
+        u_s=table.mu_slide,
+        u_r=table.mu_roll,
+        u_sp=table.mu_spin,
+        e_b=table.e_ball_ball,
+        e_cue=table.e_cue_ball,
+        e_c=table.e_ball_cushion,
+        f_c=table.mu_ball_cushion,
+        h=table.nose_height,
+        friction=('alciatore',) if alciatore else ('constant', table.mu_ball_ball),
+        cushion=table.cushion_model,
+        impulse={'restitution': 'pooltool', 'impulse': 'physical'}[table.friction_bound],
+        masses=[ball.mass for ball in table.balls],
+    )
+
+
+def simulate(table, velocities, spins=None, positions=None, **options):
+    """Play a shot on a `Table` with the motion 'ball' and equal radii; see `play`.
+
+    `velocities` (2,) and `spins` (3,) are the cue ball's, or one row for each ball; `options` are
+    those of `play`.
+    """
+    count = len(table.balls)
+    places = [ball.position for ball in table.balls] if positions is None else positions
+    strikes = [[0.0] * 5 for _ in range(count)]
+    for given, first, last in ((velocities, 0, 2), (spins, 2, 5)):
+        for strike, row in zip(strikes, [] if given is None else rows_of(given), strict=False):
+            strike[first:last] = (float(part) for part in row)
+    cushions = table.cushions
+    segments, noses = (None, ()) if cushions is None else (cushions.segments, cushions.noses)
+    pockets = () if table.pockets is None else table.pockets
+    shot = parameters_of(table), places, strikes
+    return play(*shot, segments, noses, pockets, **options)
+
+
+def rows_of(values):
+    """Return vectors, one a row; a single one is that of the first ball."""
+    return [values] if np.ndim(values) == 1 else values
+
+
+def engine_events(result):
+    """Return the events as an engine lists them: (time, kind, ball, other), other -1 for none."""
+    return [
+        (
+            float(event.time),
+            KINDS[event.kind],
+            event.ball,
+            -1 if event.other is None else event.other,
+        )
+        for event in result.events
+        if event.kind in KINDS
+    ]

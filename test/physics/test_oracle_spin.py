@@ -1,6 +1,7 @@
 """The high-precision oracle for balls that spin: shots of another oracle, and cases by hand."""
 
 import math
+from types import SimpleNamespace
 
 import oracle_spin
 import pytest
@@ -57,6 +58,18 @@ def test_a_slide_that_becomes_a_roll_by_hand():
     assert found.finals[0] == pytest.approx([1.0 + way, 500.0])
 
 
+def test_where_all_is_at_a_time_by_hand():
+    """Half way through a slide: velocity and spin change at constant rates."""
+    time = 1 / (7 * 0.2 * 9.81)
+    found = oracle_spin.play(POOL, [(0.5, 0.5)], [(1.0, 0.0, 0.0, 0.0, 50.0)], until=time)
+    assert found.duration == pytest.approx(time) and not found.events
+    assert found.velocities[0] == pytest.approx([1 - 0.2 * 9.81 * time, 0.0])
+    assert found.finals[0] == pytest.approx([0.5 + time - 0.2 * 9.81 * time**2 / 2, 0.5])
+    turned = 5 / (2 * 0.028575) * 0.2 * 9.81 * time
+    decayed = 5 * 0.0127 * 9.81 / (2 * 0.028575) * time
+    assert found.spins[0] == pytest.approx([0.0, turned, 50.0 - decayed])
+
+
 def test_spin_in_place_ends_alone():
     found = oracle_spin.play(POOL, [(1.0, 0.5)], [(0.0, 0.0, 0.0, 0.0, -100.0)])
     assert found.counts == {'spin_end': 1}
@@ -103,3 +116,63 @@ def test_mirrored_shots_are_mirrored():
         assert abs(place[0] - mpf(expected[0])) < mpf('1e-18')
         assert abs(place[1] - mpf(width) + mpf(expected[1])) < mpf('1e-18')
     assert math.isclose(found.duration, float(shot['duration']))
+
+
+def test_a_table_s_shot_is_that_of_its_parameters():
+    shot = SHOTS[7]
+    given = shot['parameters']
+    balls = [
+        SimpleNamespace(position=place, radius=given['R'], mass=0.17) for place in shot['places']
+    ]
+    table = SimpleNamespace(
+        length=given['length'],
+        width=given['width'],
+        balls=balls,
+        gravity=given['g'],
+        mu_slide=given['u_s'],
+        mu_roll=given['u_r'],
+        mu_spin=given['u_sp'],
+        e_ball_ball=given['e_b'],
+        e_cue_ball=given['e_b'],
+        e_ball_cushion=given['e_c'],
+        mu_ball_cushion=given['f_c'],
+        nose_height=given['h'],
+        ball_friction='alciatore' if given['friction'][0] == 'alciatore' else 'coulomb',
+        mu_ball_ball=given['friction'][1],
+        cushion_model=given['cushion'],
+        friction_bound='restitution' if given['impulse'] == 'pooltool' else 'impulse',
+        cushions=None,
+        pockets=None,
+    )
+    velocities = [strike[:2] for strike in shot['strikes']]
+    spins = [strike[2:] for strike in shot['strikes']]
+    if len(shot['strikes']) == 1:
+        velocities, spins = velocities[0], spins[0]
+    found = oracle_spin.simulate(table, velocities, spins)
+    assert found.counts == shot['counts']
+    for place, expected in zip(found.finals, shot['finals'], strict=True):
+        assert all(abs(a - mpf(b)) < mpf('1e-18') for a, b in zip(place, expected, strict=True))
+    listed = oracle_spin.engine_events(found)
+    assert len(listed) == len(shot['events']) - shot['counts'].get('spin_end', 0)
+    kinds = {
+        name: sum(kind == k for _, kind, _, _ in listed) for name, k in oracle_spin.KINDS.items()
+    }
+    assert {name: n for name, n in kinds.items() if n} == {
+        name: n for name, n in shot['counts'].items() if name != 'spin_end'
+    }
+
+
+def test_masses_and_the_cue_ball_s_restitution():
+    """Head-on without friction: by momentum and restitution, in the moment after the contact."""
+    parameters = POOL | dict(
+        masses=[0.2, 0.1, 0.1], e_cue=0.5, e_b=0.9, friction=('constant', 0.0), u_s=1e-9, u_r=1e-9
+    )
+    places = [(0.5, 0.5), (0.8, 0.5), (1.2, 0.5)]
+    shot = oracle_spin.Play(parameters, places, [(3.0, 0, 0, 0, 0), (0,) * 5, (0,) * 5])
+    for speeds in ((1.5, 3.0, 0.0), (1.5, 0.15, 2.85)):
+        event = min(shot.next.values(), key=lambda each: each.time)
+        shot.advance(event.time - shot.t)
+        assert shot.happen(event)[0] == 'ball'
+        shot.predict(event.ball)
+        shot.predict(event.other)
+        assert [float(ball.v[0]) for ball in shot.balls] == pytest.approx(speeds, abs=1e-6)
