@@ -298,7 +298,8 @@ def play(
     """Play a shot to its end, or to the time `until`.
 
     `strikes` are rows vx, vy, wx, wy, wz, one for each ball or for the first ones. Returns finals,
-    velocities, spins, duration, events (time, kind, ball, other), counts by kind, and the pocket of each ball or -1.
+    velocities, spins, duration, events (time, kind, ball, other), counts by kind, and the pocket of
+    each ball or -1.
     """
     strikes = [*strikes, *[(0.0,) * 5] * (len(places) - len(strikes))]
     shot = Play(parameters, places, strikes, segments, noses, pockets)

@@ -24,8 +24,9 @@ class Mouth(NamedTuple):
     ----------
     width : float
         From lip to lip, where the lines of the rails and of the jaws meet, m.
-    turn : float
-        Angle between rail and jaw, degrees: 0 if the jaw went on along the rail.
+    slope : float
+        Angle between a jaw and the way straight out of the table, degrees: 0 to 90. It is 90 less
+        than the angle of the cut, which is between rail and jaw.
     depth : float
         From the corner of the lines of the rails, or from the line of the rail, out to the middle
         of the hole, m.
@@ -34,11 +35,11 @@ class Mouth(NamedTuple):
     nose : float
         Radius of the nose between rail and jaw, m; 0 for a point.
     slant : float, optional
-        How far a jaw goes along the rail while it goes 1 m out; by default as `turn` has it.
+        How far a jaw goes along the rail while it goes 1 m out; by default the tangent of `slope`.
     """
 
     width: float
-    turn: float
+    slope: float
     depth: float
     hole: float
     nose: float
@@ -47,7 +48,7 @@ class Mouth(NamedTuple):
     @property
     def rounding(self) -> float:
         """How far from the lip the nose touches rail and jaw, m."""
-        return self.nose * math.tan(math.radians(self.turn) / 2.0)
+        return self.nose / math.tan((math.pi / 2.0 + math.radians(self.slope)) / 2.0)
 
 
 def pocket_table(
@@ -63,19 +64,20 @@ def pocket_table(
     cushion_width : float
         How far the jaws reach out from the straight cushions, m.
     """
-    at_corner = corner.width * math.cos(math.pi / 4.0) + corner.rounding
-    left, right = (length - side.width) / 2.0 - side.rounding, (length + side.width) / 2.0
-    right += side.rounding
-    far, high = length - at_corner, width - at_corner
+    lip = corner.width * math.cos(math.pi / 4.0)
+    near, far, high = lip, length - lip, width - lip
+    left, right = (length - side.width) / 2.0, (length + side.width) / 2.0
+    start, before, after = near + corner.rounding, left - side.rounding, right + side.rounding
+    end, top = length - start, width - start
     rails = [
-        (at_corner, 0.0, left, 0.0, 0.0, 1.0),
-        (right, 0.0, far, 0.0, 0.0, 1.0),
-        (at_corner, width, left, width, 0.0, -1.0),
-        (right, width, far, width, 0.0, -1.0),
-        (0.0, at_corner, 0.0, high, 1.0, 0.0),
-        (length, at_corner, length, high, -1.0, 0.0),
+        (start, 0.0, before, 0.0, 0.0, 1.0),
+        (after, 0.0, end, 0.0, 0.0, 1.0),
+        (start, width, before, width, 0.0, -1.0),
+        (after, width, end, width, 0.0, -1.0),
+        (0.0, start, 0.0, top, 1.0, 0.0),
+        (length, start, length, top, -1.0, 0.0),
     ]
-    # Where a rail ends: the point, the way along the rail into the mouth, and out of the table.
+    # Where a rail ends: the lip, the way along the rail into the mouth, and out of the table.
     at_side = [
         ((right, 0.0), (-1.0, 0.0), (0.0, -1.0)),
         ((left, 0.0), (1.0, 0.0), (0.0, -1.0)),
@@ -83,13 +85,13 @@ def pocket_table(
         ((left, width), (1.0, 0.0), (0.0, 1.0)),
     ]
     at_corners = [
-        ((0.0, at_corner), (0.0, -1.0), (-1.0, 0.0)),
-        ((at_corner, 0.0), (-1.0, 0.0), (0.0, -1.0)),
-        ((length, at_corner), (0.0, -1.0), (1.0, 0.0)),
+        ((0.0, near), (0.0, -1.0), (-1.0, 0.0)),
+        ((near, 0.0), (-1.0, 0.0), (0.0, -1.0)),
+        ((length, near), (0.0, -1.0), (1.0, 0.0)),
         ((far, 0.0), (1.0, 0.0), (0.0, -1.0)),
         ((far, width), (1.0, 0.0), (0.0, 1.0)),
         ((length, high), (0.0, 1.0), (1.0, 0.0)),
-        ((at_corner, width), (-1.0, 0.0), (0.0, 1.0)),
+        ((near, width), (-1.0, 0.0), (0.0, 1.0)),
         ((0.0, high), (0.0, 1.0), (-1.0, 0.0)),
     ]
     jaws = [
@@ -99,13 +101,11 @@ def pocket_table(
         if _has_jaws(mouth, cushion_width)
     ]
     # Around the table, counterclockwise from the first corner.
-    low, left_low = at_corners[:2], [at_side[1], at_side[0]]
-    right_high = [at_side[2], at_side[3]]
-    noses = [_nose(corner, *end) for end in low]
-    noses += [_nose(side, *end) for end in left_low]
-    noses += [_nose(corner, *end) for end in (at_corners[3], at_corners[2], *at_corners[5:3:-1])]
-    noses += [_nose(side, *end) for end in right_high]
-    noses += [_nose(corner, *end) for end in at_corners[6:]]
+    mouths = [corner] * 2 + [side] * 2 + [corner] * 4 + [side] * 2 + [corner] * 2
+    ends = [at_corners[k] for k in (0, 1)] + [at_side[k] for k in (1, 0)]
+    ends += [at_corners[k] for k in (3, 2, 5, 4)] + [at_side[k] for k in (2, 3)]
+    ends += [at_corners[k] for k in (6, 7)]
+    noses = [_nose(mouth, *end) for mouth, end in zip(mouths, ends, strict=True)]
     out, aside = corner.depth / math.sqrt(2.0), length / 2.0
     pockets = [
         (-out, -out, corner.hole),
@@ -120,26 +120,27 @@ def pocket_table(
 
 def _has_jaws(mouth: Mouth, cushion_width: float) -> bool:
     """Return whether a straight jaw begins where a nose ends, before the cushion does."""
-    return mouth.rounding * math.sin(math.radians(mouth.turn)) < cushion_width
+    return mouth.rounding * math.cos(math.radians(mouth.slope)) < cushion_width
 
 
 def _jaw(
-    mouth: Mouth, end: Point, along: Point, out: Point, cushion_width: float
+    mouth: Mouth, lip: Point, along: Point, out: Point, cushion_width: float
 ) -> tuple[float, ...]:
-    """Return the row of the jaw beyond the end of a rail: from outside to its nose."""
-    turn = math.radians(mouth.turn)
-    cosine, sine = math.cos(turn), math.sin(turn)
-    slant = cosine / sine if mouth.slant is None else mouth.slant
-    lip = [end[k] + mouth.rounding * along[k] for k in (0, 1)]
-    outer = [lip[k] + cushion_width * (slant * along[k] + out[k]) for k in (0, 1)]
-    inner = [lip[k] + mouth.rounding * (cosine * along[k] + sine * out[k]) for k in (0, 1)]
-    way = [inner[k] - outer[k] for k in (0, 1)]
-    length = math.hypot(*way)
-    normal = [-way[1] / length, way[0] / length]
-    side = 1.0 if normal[0] * along[0] + normal[1] * along[1] > 0.0 else -1.0
-    return *outer, *inner, side * normal[0], side * normal[1]
+    """Return the row of the jaw beyond a lip: from outside to its nose."""
+    angle = math.radians(mouth.slope)
+    slant = math.tan(angle) if mouth.slant is None else mouth.slant
+    inner_out, inner_along = mouth.rounding * math.cos(angle), mouth.rounding * math.sin(angle)
+    x0, y0 = (lip[k] + cushion_width * slant * along[k] + cushion_width * out[k] for k in (0, 1))
+    x1, y1 = (lip[k] + inner_along * along[k] + inner_out * out[k] for k in (0, 1))
+    tilt = (x1 - x0) / (y1 - y0)
+    size = math.hypot(1.0, tilt)
+    nx, ny = 1.0 / size, -tilt / size
+    if nx * along[0] + ny * along[1] < 0.0:
+        nx, ny = -nx, -ny
+    return x0, y0, x1, y1, nx, ny
 
 
-def _nose(mouth: Mouth, end: Point, along: Point, out: Point) -> tuple[float, ...]:
-    """Return the row of the nose at the end of a rail."""
-    return *(end[k] + mouth.nose * out[k] for k in (0, 1)), mouth.nose
+def _nose(mouth: Mouth, lip: Point, along: Point, out: Point) -> tuple[float, ...]:
+    """Return the row of the nose between rail and jaw."""
+    x, y = (lip[k] - mouth.rounding * along[k] + mouth.nose * out[k] for k in (0, 1))
+    return x, y, mouth.nose

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +71,31 @@ class PoolTable:
         """Coefficient, in m, by which spin in place ends: wz' = -5 mu_spin g / (2 R)."""
         return SPIN_DECAY * self.ball_radius
 
+    def fields(self) -> dict[str, Any]:
+        """Return the fields of `Table` but for its balls: what is dissipated where, and how."""
+        return dict(
+            length=self.length,
+            width=self.width,
+            motion='ball',
+            mu_slide=self.mu_slide,
+            mu_roll=self.mu_roll,
+            mu_spin=self.mu_spin,
+            mu_ball_cushion=self.mu_ball_cushion,
+            e_cue_ball=E_BALL_BALL,
+            e_ball_ball=E_BALL_BALL,
+            e_ball_cushion=E_BALL_CUSHION,
+            gravity=GRAVITY,
+            ball_friction='alciatore',
+            friction_bound='impulse',
+            cushion_model='han',
+            nose_height=self.nose_height,
+            cushions=self.cushions,
+            pockets=self.pockets,
+        )
+
+
+GRAVITY = 9.80665
+"""Standard gravity, m/s^2."""
 
 E_BALL_BALL = 0.95
 E_BALL_CUSHION = 0.85
@@ -88,10 +113,10 @@ CAROM_BALL = dict(
 )
 
 SHOWOOD = (
-    Mouth(width=0.118, turn=45.0 - 5.3, depth=0.0417, hole=0.062, nose=0.02095),
+    Mouth(width=0.118, slope=45.0 + 5.3, depth=0.0417, hole=0.062, nose=0.02095),
     Mouth(
         width=0.137,
-        turn=90.0 - 7.14,
+        slope=7.14,
         depth=0.0685,
         hole=0.0645,
         nose=0.00795,
@@ -100,8 +125,8 @@ SHOWOOD = (
     ),
 )
 SNOOKER = (
-    Mouth(width=0.083, turn=45.0, depth=0.036, hole=0.043, nose=3.6 * INCH),
-    Mouth(width=0.075, turn=90.0, depth=0.95 * INCH, hole=1.68 * INCH, nose=2.5 * INCH),
+    Mouth(width=0.083, slope=45.0, depth=0.036, hole=0.043, nose=3.6 * INCH),
+    Mouth(width=0.075, slope=0.0, depth=0.95 * INCH, hole=1.68 * INCH, nose=2.5 * INCH),
 )
 
 
@@ -111,8 +136,8 @@ def _wpa_mouths() -> tuple[Mouth, Mouth]:
     lips, shelf = 4.5625 * INCH, 1.625 * INCH
     side_shelf = 0.1875 * INCH
     return (
-        Mouth(lips, 180.0 - 142.0, shelf - lips / 2.0 + corner.hole, corner.hole, 0.0),
-        Mouth(5.0625 * INCH, 180.0 - 104.0, side_shelf + side.hole, side.hole, 0.0),
+        Mouth(lips, 142.0 - 90.0, shelf - lips / 2.0 + corner.hole, corner.hole, 0.0),
+        Mouth(5.0625 * INCH, 104.0 - 90.0, side_shelf + side.hole, side.hole, 0.0),
     )
 
 

@@ -7,8 +7,8 @@ import pytest
 
 from pool_sim_ros.physics.pocket_geometry import Mouth, pocket_table
 
-CORNER = Mouth(width=0.12, turn=40.0, depth=0.04, hole=0.06, nose=0.02)
-SIDE = Mouth(width=0.14, turn=80.0, depth=0.07, hole=0.065, nose=0.01)
+CORNER = Mouth(width=0.12, slope=50.0, depth=0.04, hole=0.06, nose=0.02)
+SIDE = Mouth(width=0.14, slope=10.0, depth=0.07, hole=0.065, nose=0.01)
 LENGTH, WIDTH, REACH = 2.0, 1.0, 0.05
 
 
@@ -93,7 +93,7 @@ def test_measures_of_the_mouths():
     )
     np.testing.assert_allclose(outer, REACH, atol=1e-15)
     way = jaws[0, :2] - jaws[0, 2:4]
-    assert math.degrees(math.atan2(-way[1], -way[0])) == pytest.approx(SIDE.turn)
+    assert math.degrees(math.atan2(-way[1], -way[0])) == pytest.approx(90.0 - SIDE.slope)
 
 
 def test_a_point_for_a_nose():
@@ -105,5 +105,5 @@ def test_a_point_for_a_nose():
 
 
 def test_no_jaw_where_the_nose_is_deeper_than_the_cushion():
-    cushions, _ = outline(side=SIDE._replace(turn=90.0, nose=0.06))
+    cushions, _ = outline(side=SIDE._replace(slope=0.0, nose=0.06))
     assert cushions.segments.shape == (14, 6) and cushions.noses.shape == (12, 3)

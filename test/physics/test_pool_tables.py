@@ -11,13 +11,13 @@ from pool_sim_ros.physics.units import INCH
 def test_the_seven_foot_table_equals_its_data_in_order():
     table, data = pool_table_dimensions('7ft'), seven_foot()
     assert (table.length, table.width) == (data['length'], data['width'])
-    assert table.nose_height == pytest.approx(data['nose_height'], abs=1e-16)
+    assert table.nose_height == data['nose_height']
     for found, expected in (
         (table.cushions.segments, data['segments']),
         (table.cushions.noses, data['noses']),
         (table.pockets, data['pockets']),
     ):
-        np.testing.assert_allclose(found, expected, rtol=0, atol=3e-15)
+        np.testing.assert_array_equal(found, expected)
 
 
 def test_coefficients_are_those_of_the_notes():
@@ -82,6 +82,59 @@ def test_a_ball_fits_into_every_mouth_and_lies_on_every_table(name):
         caught = np.hypot(*(at_rail - (x, y)).T) < hole
         beside = (along > rails[0, 0]) & (along < rails[0, 2])
         assert not (caught & beside).any()
+
+
+def distance_to_segment(x, y, segment):
+    x0, y0, x1, y1 = segment[:4]
+    length = (x1 - x0) ** 2 + (y1 - y0) ** 2
+    share = np.clip(((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length, 0.0, 1.0)
+    return np.hypot(x - x0 - share * (x1 - x0), y - y0 - share * (y1 - y0))
+
+
+@pytest.mark.parametrize('name', ['7ft', '8ft', '9ft', 'snooker'])
+def test_no_ball_leaves_but_through_a_pocket(name):
+    """Where a ball's centre gets from the middle without overlap, on a grid of 3 mm: to the rails,
+    and to each hole before it is as far out as the jaws reach."""
+    table = pool_table_dimensions(name)
+    step, margin = 0.003, 0.15
+    x, y = np.meshgrid(
+        np.arange(-margin, table.length + margin, step),
+        np.arange(-margin, table.width + margin, step),
+        indexing='ij',
+    )
+    free = np.ones(x.shape, dtype=bool)
+    for segment in table.cushions.segments:
+        free &= distance_to_segment(x, y, segment) >= table.ball_radius
+    for x0, y0, radius in table.cushions.noses:
+        free &= np.hypot(x - x0, y - y0) >= table.ball_radius + radius
+    holes = [np.hypot(x - x0, y - y0) < radius for x0, y0, radius in table.pockets]
+    free &= ~np.any(holes, axis=0)
+    reached = np.zeros_like(free)
+    reached[free.shape[0] // 2, free.shape[1] // 2] = True
+    count = 0
+    while count != reached.sum():
+        count = reached.sum()
+        for _ in range(20):
+            reached[1:] |= reached[:-1]
+            reached[:-1] |= reached[1:]
+            reached[:, 1:] |= reached[:, :-1]
+            reached[:, :-1] |= reached[:, 1:]
+            reached &= free
+    out = np.maximum(np.maximum(-x, x - table.length), np.maximum(-y, y - table.width))
+    assert out[reached].max() < 0.02
+    for hole in holes:
+        grown = hole.copy()
+        grown[1:] |= hole[:-1]
+        grown[:-1] |= hole[1:]
+        assert (grown & reached).any()
+
+
+def test_fields_are_those_of_a_table():
+    table = pool_table_dimensions('9ft')
+    fields = table.fields()
+    assert fields['motion'] == 'ball' and fields['mu_spin'] == table.mu_spin
+    assert fields['e_cue_ball'] == fields['e_ball_ball'] == 0.95
+    assert fields['cushions'] is table.cushions and fields['pockets'] is table.pockets
 
 
 def test_snooker_s_size_is_near_wpbsa_s():

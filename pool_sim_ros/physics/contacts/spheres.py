@@ -27,7 +27,7 @@ ALCIATORE_FLOOR = 9.951e-3
 ALCIATORE_RANGE = 0.108
 ALCIATORE_DECAY = 1.088
 """Friction of two balls at the slip s in m/s: floor + range exp(-decay s), Alciatore's fit to
-Marlow's data (*The Illustrated Principles of Pool and Billiards*, technical proof A.14)."""
+measurements (technical proof A.14)."""
 
 
 class BallLaw(NamedTuple):
