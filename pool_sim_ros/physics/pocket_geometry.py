@@ -77,23 +77,7 @@ def pocket_table(
         (0.0, start, 0.0, top, 1.0, 0.0),
         (length, start, length, top, -1.0, 0.0),
     ]
-    # Where a rail ends: the lip, the way along the rail into the mouth, and out of the table.
-    at_side = [
-        ((right, 0.0), (-1.0, 0.0), (0.0, -1.0)),
-        ((left, 0.0), (1.0, 0.0), (0.0, -1.0)),
-        ((right, width), (-1.0, 0.0), (0.0, 1.0)),
-        ((left, width), (1.0, 0.0), (0.0, 1.0)),
-    ]
-    at_corners = [
-        ((0.0, near), (0.0, -1.0), (-1.0, 0.0)),
-        ((near, 0.0), (-1.0, 0.0), (0.0, -1.0)),
-        ((length, near), (0.0, -1.0), (1.0, 0.0)),
-        ((far, 0.0), (1.0, 0.0), (0.0, -1.0)),
-        ((far, width), (1.0, 0.0), (0.0, 1.0)),
-        ((length, high), (0.0, 1.0), (1.0, 0.0)),
-        ((near, width), (-1.0, 0.0), (0.0, 1.0)),
-        ((0.0, high), (0.0, 1.0), (-1.0, 0.0)),
-    ]
+    at_side, at_corners = _lips((near, far, left, right), (near, high), (length, width))
     jaws = [
         _jaw(mouth, *end, cushion_width)
         for mouth, ends in ((side, at_side), (corner, at_corners))
@@ -116,6 +100,33 @@ def pocket_table(
         (length + out, width + out, corner.hole),
     ]
     return Cushions(np.array(rails + jaws), np.array(noses)), rows('pockets', pockets, 3)
+
+
+def _lips(
+    along: tuple[float, ...], across: Point, size: Point
+) -> tuple[list[tuple[Point, Point, Point]], list[tuple[Point, Point, Point]]]:
+    """Return where rails meet mouths, at the sides and at the corners.
+
+    Each is the lip, the way along the rail into the mouth, and the way out of the table.
+    """
+    (near, far, left, right), (low, high), (length, width) = along, across, size
+    at_side = [
+        ((right, 0.0), (-1.0, 0.0), (0.0, -1.0)),
+        ((left, 0.0), (1.0, 0.0), (0.0, -1.0)),
+        ((right, width), (-1.0, 0.0), (0.0, 1.0)),
+        ((left, width), (1.0, 0.0), (0.0, 1.0)),
+    ]
+    at_corners = [
+        ((0.0, low), (0.0, -1.0), (-1.0, 0.0)),
+        ((near, 0.0), (-1.0, 0.0), (0.0, -1.0)),
+        ((length, low), (0.0, -1.0), (1.0, 0.0)),
+        ((far, 0.0), (1.0, 0.0), (0.0, -1.0)),
+        ((far, width), (1.0, 0.0), (0.0, 1.0)),
+        ((length, high), (0.0, 1.0), (1.0, 0.0)),
+        ((near, width), (-1.0, 0.0), (0.0, 1.0)),
+        ((0.0, high), (0.0, 1.0), (-1.0, 0.0)),
+    ]
+    return at_side, at_corners
 
 
 def _has_jaws(mouth: Mouth, cushion_width: float) -> bool:
