@@ -15,11 +15,20 @@ from pool_sim_ros.lazy import lazy_exports
 from pool_sim_ros.physics.units import INCH
 
 if TYPE_CHECKING:
-    from pool_sim_ros.physics.contacts import TwoBallCollision, two_ball_collision
+    from pool_sim_ros.physics.contacts import (
+        TwoBallCollision,
+        collide_balls,
+        collide_cushion,
+        two_ball_collision,
+    )
+    from pool_sim_ros.physics.cue import cue_strike
+    from pool_sim_ros.physics.cushions import Cushions
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
+    from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
     from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
+    from pool_sim_ros.physics.racks import RackKind, rack
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
     from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, Ball, BallFriction, Table
     from pool_sim_ros.physics.trajectory import Trajectory
@@ -40,8 +49,16 @@ else:
             'Table': 'table',
             'Trajectory': 'trajectory',
             'TwoBallCollision': 'contacts',
+            'CushionModel': 'law_names',
+            'Cushions': 'cushions',
+            'FrictionBound': 'law_names',
+            'RackKind': 'racks',
             'check_layout': 'validation',
+            'collide_balls': 'contacts',
+            'collide_cushion': 'contacts',
             'compile_kernels': 'shots',
+            'cue_strike': 'cue',
+            'rack': 'racks',
             'report_table': 'me212_table',
             'simulate': 'shots',
             'simulate_many': 'shots',
@@ -56,15 +73,23 @@ __all__ = [
     'REPORT_TIME_SLICE',
     'Ball',
     'BallFriction',
+    'CushionModel',
+    'Cushions',
     'EventKind',
+    'FrictionBound',
     'Integrator',
     'Outcomes',
+    'RackKind',
     'ShotTooLong',
     'Table',
     'Trajectory',
     'TwoBallCollision',
     'check_layout',
+    'collide_balls',
+    'collide_cushion',
     'compile_kernels',
+    'cue_strike',
+    'rack',
     'report_table',
     'simulate',
     'simulate_many',

@@ -111,6 +111,23 @@ IMPULSE_PRECISION = 1e-14
 MAX_SPEED = 1e6
 """Speed of a ball at the start along each axis, m/s: far beyond any shot, and nothing overflows."""
 
+MAX_SPIN = 1e9
+"""Spin of a ball at the start about each axis, rad/s: as far beyond any shot."""
+
+ROUNDING_OF_OFFSET = 1e-12
+"""Part of the radius by which the tip of a cue may be farther out than it should: rounding."""
+
+# Cushions with an edge
+
+UNIT_LENGTH = 1e-12
+"""What a unit normal may differ from length 1, and from a right angle to its cushion."""
+
+ROOT_PRECISION = 4e-16
+"""Change of an angle in rad at which the end of sticking is found: about its rounding."""
+
+CUSHION_STEPS = 200
+"""Steps of the coarser of two integrations along the push of a cushion (Mathavan's model)."""
+
 # Shots that do not end
 
 RUNAWAY_GAIN = 100.0

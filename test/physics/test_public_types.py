@@ -45,6 +45,20 @@ meeting: TwoBallCollision = two_ball_collision(
 )
 angle: float = meeting.impact_angle
 diameter: float = 2 * ball.radius / INCH
+model: CushionModel = 'stronge'
+bound: FrictionBound = 'restitution'
+kind: RackKind = 'nine_ball'
+spin: NDArray[np.float64] = np.zeros(3)
+spin = collide_balls(
+    (1.0, 0.0, 0.0), spin, np.zeros(3), np.zeros(3), (1.0, 0.0), m1=0.17, m2=0.17, R=0.0286, e=0.95,
+    friction='alciatore', friction_bound=bound,
+)[1]
+after, spin = collide_cushion(
+    (1.0, 0.0, 0.0), spin, (1.0, 0.0), R=0.0286, h=0.0366, e=0.85, f=0.2, model=model, mu_slide=0.2
+)
+velocity, spin = cue_strike(table, speed=2.0, azimuth=180.0, side=0.2, above=-0.3)
+balls: tuple[Ball, ...] = rack(table, kind, spacing=1e-4, seed=3)
+points: NDArray[np.float64] = Cushions(np.zeros((0, 6)), np.zeros((0, 3))).noses
 compile_kernels(table)
 laws: list[str] = [*BALL_FRICTION_LAWS, *INTEGRATORS]
 """
@@ -60,6 +74,9 @@ Table(length='2.2 m', width=1.1, balls=())
 Table(length=2.2, width=1.1, balls=(), ball_friction='none')
 Table(length=2.2, width=1.1, balls=(), size=9)
 two_ball_collision(0.17, 0.17, (1.0, 0.0))
+cue_strike(table, 2.0)
+rack(table, 'pyramid')
+collide_cushion((1.0, 0.0, 0.0), 3, (1.0, 0.0), R=0.03, h=0.04, e=0.9, f=0.2, model='x')
 """
 
 

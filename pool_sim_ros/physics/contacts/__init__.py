@@ -1,11 +1,12 @@
 """The laws of one contact, and how the two sides of it rub.
 
-`discs` has those of the report, for balls without spin; `two_ball` is the report's Part 1.
+`discs` has those of the report, for balls without spin; `two_ball` is the report's Part 1. Of balls
+that spin, `spheres` has two, `edge` one and a cushion, `single` both as functions of numbers.
 """
 
 from pool_sim_ros.physics.contacts.discs import (
-    collide_balls,
-    collide_cushion,
+    collide_disc_with_cushion,
+    collide_discs,
     contact_normal,
     coulomb_impulse,
     report_friction,
@@ -14,18 +15,53 @@ from pool_sim_ros.physics.contacts.discs import (
     rub_cushion,
     sign,
 )
+from pool_sim_ros.physics.contacts.edge import (
+    EdgeLaw,
+    collide_with_edge,
+    friction_of_edge,
+    from_contact_axes,
+    lean_of,
+    meet_edge,
+    parting_of_push,
+    to_contact_axes,
+)
+from pool_sim_ros.physics.contacts.rigid_edge import rebound
+from pool_sim_ros.physics.contacts.single import collide_balls, collide_cushion
+from pool_sim_ros.physics.contacts.spheres import (
+    BallLaw,
+    collide_spheres,
+    friction_bound,
+    friction_of_balls,
+    rub_spheres,
+)
 from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
 
 __all__ = [
+    'BallLaw',
+    'EdgeLaw',
     'TwoBallCollision',
     'collide_balls',
     'collide_cushion',
+    'collide_disc_with_cushion',
+    'collide_discs',
+    'collide_spheres',
+    'collide_with_edge',
     'contact_normal',
     'coulomb_impulse',
+    'friction_bound',
+    'friction_of_balls',
+    'friction_of_edge',
+    'from_contact_axes',
+    'lean_of',
+    'meet_edge',
+    'parting_of_push',
+    'rebound',
     'report_friction',
     'restitution',
     'rub_balls',
     'rub_cushion',
+    'rub_spheres',
     'sign',
+    'to_contact_axes',
     'two_ball_collision',
 ]

@@ -114,7 +114,7 @@ def rub_cushion(tangential: float, normal_change: float, mu: float, share: float
 
 
 @inlined
-def collide_balls(
+def collide_discs(
     table: Any,
     va: tuple[float, float],
     vb: tuple[float, float],
@@ -155,7 +155,7 @@ def collide_balls(
 
 
 @inlined
-def collide_cushion(
+def collide_disc_with_cushion(
     table: Any, normal: float, tangential: float, separation: float
 ) -> tuple[float, float]:
     """Return the normal and tangential velocity of a ball after a cushion (report, Equation 9).

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.boundary import Rectangle
-from pool_sim_ros.physics.contacts.discs import collide_balls
+from pool_sim_ros.physics.contacts.discs import collide_discs
 from pool_sim_ros.physics.motion import DiscTable
 from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, BallFriction
 from pool_sim_ros.physics.validation import number, numbers
@@ -99,7 +99,7 @@ def two_ball_collision(
     angle = math.atan2(va[1] - vb[1], va[0] - vb[0]) + math.asin(offset / reach)
     normal = (math.cos(angle), math.sin(angle))
     before_a, before_b = _in_frame(va, normal), _in_frame(vb, normal)
-    after_a, after_b = collide_balls(
+    after_a, after_b = collide_discs(
         _contact_table(friction, ball_friction),
         va,
         vb,

@@ -9,7 +9,11 @@ from pool_sim_ros.physics.boundary import (
     to_cushion_axes,
     touches_cushion,
 )
-from pool_sim_ros.physics.contacts import collide_balls, collide_cushion, contact_normal
+from pool_sim_ros.physics.contacts import (
+    collide_disc_with_cushion,
+    collide_discs,
+    contact_normal,
+)
 from pool_sim_ros.physics.event_driven.cell_grid import all_moving, has_few
 from pool_sim_ros.physics.event_driven.contact_group import (
     ContactGroup,
@@ -142,7 +146,7 @@ def hit_ball(state: State, a: int, b: int, now: float) -> None:
     # A contact that rounding has part already pushes nothing.
     if closing + parting > 0.0:
         inverse_masses = balls[a].inverse_mass, balls[b].inverse_mass
-        va, vb = collide_balls(table, va, vb, normal, inverse_masses, parting)
+        va, vb = collide_discs(table, va, vb, normal, inverse_masses, parting)
         log_contact(state, a, b, normal, closing, now)
     leave_contact(state, a, va, now)
     leave_contact(state, b, vb, now)
@@ -161,7 +165,7 @@ def hit_cushion(state: State, a: int, partner: int, now: float) -> None:
         if closing > CLOSING_ROUNDING or parting > 0.0:
             log_contact(state, a, partner, normal, closing, now)
         along, across = to_cushion_axes(boundary, cushion, normal, velocity)
-        along, across = collide_cushion(table, along, across, parting)
+        along, across = collide_disc_with_cushion(table, along, across, parting)
         velocity = from_cushion_axes(boundary, cushion, normal, (along, across))
     leave_contact(state, a, velocity, now)
 

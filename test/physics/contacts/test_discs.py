@@ -9,7 +9,11 @@ import pytest
 from tables import LAWS
 
 from pool_sim_ros.physics.boundary import Rectangle
-from pool_sim_ros.physics.contacts import collide_balls, collide_cushion, restitution
+from pool_sim_ros.physics.contacts import (
+    collide_disc_with_cushion,
+    collide_discs,
+    restitution,
+)
 from pool_sim_ros.physics.motion import DiscTable
 
 NASTY = (0.0, -0.0, 1e-300, 1e-12, -1e-12, 1.0, -1.0, 1.0 + 2**-52, 100.0)
@@ -31,7 +35,7 @@ def table_with(ball_friction, mu=0.05, e_cue_ball=0.7, e_ball_ball=0.9):
 
 def compare_ball_collision(velocity_a, velocity_b, normal, mass_a, mass_b, e, mu, law):
     closing = np.dot(np.subtract(velocity_a, velocity_b), normal)
-    found = collide_balls(
+    found = collide_discs(
         table_with(law, mu), velocity_a, velocity_b, normal, (1 / mass_a, 1 / mass_b), e * closing
     )
     twin = naive.collide_balls(velocity_a, velocity_b, normal, mass_a, mass_b, e, mu, law)
@@ -85,7 +89,7 @@ def test_ball_collision_keeps_normal_momentum_and_restitution(law):
         masses, e = rng.uniform(0.01, 1.0, 2), rng.uniform(0.0, 1.0)
         closing = (before[0] - before[1]) @ normal
         after = np.array(
-            collide_balls(
+            collide_discs(
                 table_with(law),
                 tuple(before[0]),
                 tuple(before[1]),
@@ -110,7 +114,7 @@ def test_coulomb_never_turns_the_slip_and_never_feeds_energy():
         e = rng.uniform(0.0, 1.0)
         separation = e * (before[0, 0] - before[1, 0])
         after = np.array(
-            collide_balls(
+            collide_discs(
                 table_with('coulomb', mu),
                 tuple(before[0]),
                 tuple(before[1]),
@@ -129,7 +133,7 @@ def test_coulomb_never_turns_the_slip_and_never_feeds_energy():
 def test_report_friction_is_that_of_the_listing():
     # Listing 3, lines 131 and 132: a loses speed along the slip, and so does b, the wrong way.
     a_n, a_t, b_n, b_t = 2.0, 0.5, 0.0, 0.25
-    (_, new_a_t), (_, new_b_t) = collide_balls(
+    (_, new_a_t), (_, new_b_t) = collide_discs(
         table_with('report', mu=0.05), (a_n, a_t), (b_n, b_t), (1.0, 0.0), (2.0, 2.0), 1.0 * a_n
     )
     assert new_a_t == pytest.approx(0.5 - 0.05 * 2.0, abs=1e-15)
@@ -139,7 +143,7 @@ def test_report_friction_is_that_of_the_listing():
 @pytest.mark.parametrize('slip', [1e-16, -1e-16, 1e-12, -1e-12])
 def test_report_friction_does_not_follow_the_sign_of_a_rounding(slip):
     """A head-on hit has no slip; one of a rounding kicks neither ball sideways."""
-    found = collide_balls(
+    found = collide_discs(
         table_with('report', mu=0.05), (1.0, slip), (0.0, 0.0), (1.0, 0.0), (5.0, 6.25), 0.7
     )
     assert np.abs([found[0][1], found[1][1]]).max() <= abs(slip)
@@ -149,7 +153,7 @@ def test_cushion_equals_twin():
     rng = np.random.default_rng(14)
     speeds = [*itertools.product(NASTY, repeat=2), *rng.normal(size=(500, 2))]
     for normal_speed, tangential in speeds:
-        found = collide_cushion(
+        found = collide_disc_with_cushion(
             table_with('coulomb'), normal_speed, tangential, 0.7 * abs(normal_speed)
         )
         twin = naive.collide_cushion((normal_speed, tangential), 0, 0.7, 0.2)
@@ -158,8 +162,12 @@ def test_cushion_equals_twin():
 
 def test_cushion_by_hand():
     # Equation 9: 1 m/s becomes -0.7; the other 1 m/s loses 0.2 * 1.7.
-    assert collide_cushion(table_with('report'), 1.0, 1.0, 0.7) == pytest.approx((-0.7, 0.66))
-    assert collide_cushion(table_with('report'), 1.0, -0.1, 0.7) == pytest.approx((-0.7, 0.0))
+    assert collide_disc_with_cushion(table_with('report'), 1.0, 1.0, 0.7) == pytest.approx(
+        (-0.7, 0.66)
+    )
+    assert collide_disc_with_cushion(table_with('report'), 1.0, -0.1, 0.7) == pytest.approx(
+        (-0.7, 0.0)
+    )
 
 
 def test_cue_ball_has_its_own_restitution():

@@ -1,0 +1,19 @@
+"""The names of the laws of contact that a table may choose, in the order of their numbers."""
+
+from __future__ import annotations
+
+from typing import Literal, get_args
+
+CushionModel = Literal['han', 'impulse', 'stronge', 'mathavan']
+CUSHION_MODELS: tuple[CushionModel, ...] = get_args(CushionModel)
+
+FrictionBound = Literal['impulse', 'restitution']
+FRICTION_BOUNDS: tuple[FrictionBound, ...] = get_args(FrictionBound)
+
+
+def number_of(name: str, value: object, names: tuple[str, ...]) -> int:
+    """Return the index of a law in `names`; raise ValueError, naming the field, for another."""
+    if not isinstance(value, str) or value not in names:
+        listed = ', '.join(repr(known) for known in names[:-1])
+        raise ValueError(f'{name}: {value!r} must be {listed} or {names[-1]!r}')
+    return names.index(value)
