@@ -10,6 +10,10 @@ from typing import Any, TypeVar
 import numpy as np
 from numba import config, njit, typeof, types
 from numba.extending import overload
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics import kernel_cache
+from pool_sim_ros.physics.plain_python import as_plain_python
 
 OPTIONS = {'error_model': 'numpy', 'nogil': True, '_nrt': False}
 """Divide as numpy does; let other threads run meanwhile. Never `fastmath`: results are promised bit
@@ -45,8 +49,10 @@ class Kernel:
 
     @cached_property
     def for_python(self) -> Any:
-        """numba's dispatcher, for Python; what it compiles is kept in numba's cache."""
-        return njit(cache=True, **OPTIONS)(self.py_func)
+        """numba's dispatcher, for Python; what it compiles is kept, see `kernel_cache`."""
+        dispatcher = njit(**OPTIONS)(self.py_func)
+        kernel_cache.keep(dispatcher)
+        return dispatcher
 
     def __call__(self, *args: Any) -> Any:
         return self.for_python(*args)
@@ -54,12 +60,21 @@ class Kernel:
 
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function that is long or rarely called."""
-    return function if config.DISABLE_JIT else Kernel(function)
+    return as_plain_python(function) if config.DISABLE_JIT else Kernel(function)
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Compile a function into those that call it: passing it arrays would cost more than it does."""
-    return function if config.DISABLE_JIT else Kernel(function, forceinline=True)
+    """Compile a function into its callers: passing it arrays would cost more than it does."""
+    if config.DISABLE_JIT:
+        return as_plain_python(function)
+    return Kernel(function, forceinline=True)
+
+
+def for_kernels(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return an array of the one memory layout that the kernels are compiled for."""
+    if values.flags.c_contiguous and values.flags.writeable:
+        return values
+    return np.array(values, order='C')
 
 
 NONE = np.int64(0)
@@ -123,6 +138,8 @@ def call_directly(function: Any, key: tuple[type, ...], *args: Any) -> Any:
     if entry_point is not None:
         return entry_point(*args)
     returned = function(*args)
+    if not isinstance(function, Kernel):  # plain Python
+        return returned
     compiled = function.for_python.overloads[tuple(typeof(argument) for argument in args)]
     _entry_points[function, key] = compiled.entry_point
     return returned
