@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import threading
 from collections.abc import Callable
 from functools import cached_property, update_wrapper, wraps
 from typing import Any, TypeVar
@@ -50,12 +51,18 @@ class Kernel:
     @cached_property
     def for_python(self) -> Any:
         """numba's dispatcher, for Python; what it compiles is kept, see `kernel_cache`."""
-        dispatcher = njit(**OPTIONS)(self.py_func)
-        kernel_cache.keep(dispatcher)
-        return dispatcher
+        with _making:  # threads that play first at once must not make two
+            if 'for_python' not in vars(self):
+                dispatcher = njit(**OPTIONS)(self.py_func)
+                kernel_cache.keep(dispatcher)
+                vars(self)['for_python'] = dispatcher
+            return vars(self)['for_python']
 
     def __call__(self, *args: Any) -> Any:
         return self.for_python(*args)
+
+
+_making = threading.Lock()
 
 
 def kernel(function: Callable[..., Any]) -> Any:

@@ -124,7 +124,7 @@ def tell_once(reason: str) -> None:
     if reason and not _told:
         _told.append(reason)
         LOG.warning(
-            'pool_sim_ros cannot keep its compiled kernels, so each start compiles them again: %s',
+            'pool_sim_ros cannot keep its compiled kernels, the next start compiles them again: %s',
             reason,
         )
 
@@ -153,7 +153,7 @@ def folders() -> list[Path]:
 def _key() -> str:
     """Return what names a version of all that the machine code depends on but the processor."""
     settings = [getattr(config, name, None) for name in CODE_SETTINGS]
-    versions = sys.version, numba.__version__, np.__version__
+    versions = sys.version, sys.flags.optimize, numba.__version__, np.__version__
     what = source_hash(), versions, settings
     return hashlib.blake2b(repr(what).encode(), digest_size=12).hexdigest()
 

@@ -52,7 +52,8 @@ def _hash() -> str:
     digest = hashlib.blake2b(digest_size=16)
     for path in sorted(_at_start):
         content = Path(path).read_bytes()
-        digest.update(f'{os.path.relpath(path, ROOM)} {len(content)} '.encode() + content)
+        name = os.fsencode(os.path.relpath(path, ROOM))
+        digest.update(b'%b %d ' % (name, len(content)) + content)
     return digest.hexdigest()
 
 

@@ -1,5 +1,6 @@
 """An implementation is chosen by the type of a named tuple, in Python and in compiled code."""
 
+import threading
 from typing import NamedTuple
 
 import numpy as np
@@ -182,6 +183,23 @@ def test_where_numba_compiles_nothing_a_kernel_is_python(monkeypatch, decorate):
     assert call_directly(double_all, Square, records, 2.0) == 6.0
     assert call_directly(double_all, Square, records, 2.0) == 12.0
     assert records['width'].tolist() == [8.0] * 3
+
+
+def test_threads_that_call_first_at_once_share_one_compilation():
+    for _ in range(50):
+        double = kernel(lambda x: 2.0 * x)
+        meeting, made = threading.Barrier(4, timeout=60.0), set()
+
+        def call(double=double, meeting=meeting, made=made):
+            meeting.wait()
+            made.add(double.for_python)
+
+        callers = [threading.Thread(target=call) for _ in range(4)]
+        for caller in callers:
+            caller.start()
+        for caller in callers:
+            caller.join()
+        assert made == {double.for_python}
 
 
 def test_none_is_no_literal():

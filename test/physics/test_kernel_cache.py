@@ -22,7 +22,7 @@ from own_package import (
     without_capabilities,
 )
 
-from pool_sim_ros.physics import kernel_cache
+from pool_sim_ros.physics import kernel_cache, report_table, simulate
 from pool_sim_ros.physics.boundary import Rectangle
 from pool_sim_ros.physics.jit import kernel
 from pool_sim_ros.physics.kernel_cache import KernelCache, keep, named_tuples
@@ -281,6 +281,39 @@ def test_a_full_disk(package):
     ended = package.check()
     assert ended.words_after_a_notice == COMPILED
     assert 'No space left' in ended.stderr
+
+
+EVERYTHING = """
+from numba.core import event
+from pool_sim_ros.physics import compile_kernels, report_table, simulate
+with event.install_recorder('numba:compile') as recorder:
+    compile_kernels(report_table())
+    ends = simulate(report_table(), (-4.0, 0.0)).final_positions
+print(ends.tobytes().hex(), len(recorder.buffer) > 0)
+"""
+
+
+@pytest.mark.soak
+def test_every_kernel_compiled_in_memory_plays_as_one_that_was_kept(nowhere):
+    """As an ordinary user without a home, on a package that is read-only."""
+    del nowhere.env['HOME']
+    ends, compiled = nowhere.run(EVERYTHING).words_after_a_notice
+    assert compiled == 'True'
+    shot = simulate(report_table(), (-4.0, 0.0))
+    assert ends == shot.final_positions.tobytes().hex()
+
+
+@pytest.mark.soak
+def test_processes_that_are_killed_while_others_start_leave_a_sound_cache(package):
+    others = [package.start(EVERYTHING) for _ in range(3)]
+    while not package.kept:  # they have begun to write
+        assert all(process.poll() is None for process in others)
+    others[0].kill()
+    others[0].communicate()
+    told = {process.communicate(timeout=300) for process in others[1:]}
+    ((ends, _), errors) = (next(iter(told))[0].split(), {error for _, error in told})
+    assert errors == {''} and {stdout.split()[0] for stdout, _ in told} == {ends}
+    assert package.run(EVERYTHING).words == [ends, 'False']
 
 
 def test_processes_that_start_at_once_keep_the_same(package):
