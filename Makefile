@@ -5,6 +5,14 @@ VENV ?= .venv
 EXTRAS = jazzy,report,web,record,test
 PY = $(VENV)/bin/python
 
+# The versions that CI has tested, for every Python: without them, next year's newest could break
+# today's tree. CONSTRAINTS= takes the newest; `make lock` writes the files anew.
+CONSTRAINTS ?= constraints
+LOCKED = $(if $(CONSTRAINTS),$(CONSTRAINTS)/$(1).txt)
+# pip heeds a file that the environment names where it builds too; newer pips, by the second name.
+INSTALL = PIP_CONSTRAINT=$(LOCKED) PIP_BUILD_CONSTRAINT=$(LOCKED) $(2) -m pip install --quiet \
+	--disable-pip-version-check
+
 # A sourced ROS installation must not mix with the wheels in the environment.
 unexport AMENT_PREFIX_PATH LD_LIBRARY_PATH PYTHONHOME PYTHONPATH RMW_IMPLEMENTATION
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
@@ -18,18 +26,24 @@ POOLTOOL_VERSION = 0.6.0
 POOLTOOL = $(BENCH_VENV)/.installed-$(POOLTOOL_VERSION)
 OLDEST_VENV = .venv-oldest
 OLDEST = $(OLDEST_VENV)/.installed
-# What tells the versions that tests run on.
-VERSIONS = -c 'import sys, numba, numpy; \
-	print("Python %d.%d.%d," % sys.version_info[:3], "numpy", numpy.__version__ + ",", "numba", numba.__version__)'
+LOCK_VENV = .venv-lock
+LOCK = $(LOCK_VENV)/bin/uv pip compile --quiet --upgrade --no-header --no-annotate --python-version 3.10
+# Prints what tests run on.
+define VERSIONS
+	@$(1) --version
+	@$(1) -m pip --disable-pip-version-check list --format=freeze | tr '\n' ' ' | fold -s -w 110
+	@echo
+endef
 # Test modules run side by side, each in one process and in its order; 0: all in this one.
 JOBS ?= 2
 OLDEST_PYTHON ?= $(firstword $(wildcard $(or $(PYENV_ROOT),$(HOME)/.pyenv)/versions/3.10*/bin/python) \
 	$(shell python3.10 -c 'print("python3.10")' 2>/dev/null))
+OLDEST_TESTS = pytest hypothesis mpmath
 OLDEST_PACKAGES = $(shell sed -n "s/^ *install_requires=\[\(.*\)\],/\1/p" setup.py | tr -d "'," | sed 's/>=/==/g')
 SETUP_FILES = setup.py setup.cfg pyproject.toml package.xml pool_sim_ros/__init__.py \
 	$(wildcard config/* launch/* resource/*)
 
-.PHONY: help demo play check test soak oldest bench clean setup
+.PHONY: help demo play check test soak oldest bench lock clean setup
 
 help:
 	@echo 'make demo    play the report'\''s four shots on a simulated table and compare with its log'
@@ -39,6 +53,7 @@ help:
 	@echo 'make soak    what takes minutes: long runs of the node, two million shots looked at'
 	@echo 'make oldest  the physics on Python 3.10 with the oldest numpy and numba, where 3.10 is there'
 	@echo 'make bench   run the benchmarks'
+	@echo 'make lock    write constraints/ anew, with the newest versions'
 	@echo 'make setup   only create $(VENV) and install everything there'
 	@echo 'make clean   remove the environments, caches and build folders'
 	@echo 'The first run downloads some hundred MB. PYTHON=python3.12 chooses the interpreter (3.10 or newer).'
@@ -56,15 +71,12 @@ check: $(INSTALLED)
 	$(PY) -m ruff check .
 	$(VENV)/bin/lint-imports
 
-# numba's cache does not notice an edit in a module that a kernel imports.
 test: check
-	find pool_sim_ros test -name '*.nb[ic]' -delete
-	@$(PY) $(VERSIONS)
+	$(call VERSIONS,$(PY))
 	$(PY) -m pytest --cov -n $(JOBS) --dist loadfile
 
 soak: $(INSTALLED)
-	find pool_sim_ros test -name '*.nb[ic]' -delete
-	@$(PY) $(VERSIONS)
+	$(call VERSIONS,$(PY))
 	$(PY) -m pytest -m soak
 	$(PY) test/long_run.py
 
@@ -73,54 +85,58 @@ oldest: $(if $(OLDEST_PYTHON),$(OLDEST))
 ifeq ($(OLDEST_PYTHON),)
 	@echo 'There is no Python 3.10 here, so the physics is not tested on it.'
 else
-	rm -rf $(OLDEST_VENV)/numba
-	@$(OLDEST_VENV)/bin/python $(VERSIONS)
+	$(call VERSIONS,$(OLDEST_VENV)/bin/python)
 	NUMBA_CACHE_DIR=$(OLDEST_VENV)/numba $(OLDEST_VENV)/bin/python -m pytest -q -p no:cacheprovider \
 		test/physics test/me212 test/test_examples.py \
 		-k 'not (test_robust or test_properties or test_unskipped or test_long_run or plain_loop)'
 endif
 
 bench: $(BENCH_INSTALLED) $(POOLTOOL)
-	find pool_sim_ros test -name '*.nb[ic]' -delete
+	$(call VERSIONS,$(PY))
 	$(PY) test/benchmark/pooltool_limits.py --pooltool $(BENCH_VENV)/bin/python --write docs/pooltool.md
 	$(PY) -m pytest test/benchmark --pooltool $(BENCH_VENV)/bin/python \
 		--benchmark-columns=median,iqr,rounds --figures docs/benchmarks.md
 
 clean:
-	rm -rf $(VENV) $(BENCH_VENV) $(OLDEST_VENV) build install log dist *.egg-info .pytest_cache .ruff_cache \
-		.mypy_cache .import_linter_cache .hypothesis .benchmarks .coverage .coverage.*
+	rm -rf $(VENV) $(BENCH_VENV) $(OLDEST_VENV) $(LOCK_VENV) build install log dist *.egg-info .pytest_cache \
+		.ruff_cache .mypy_cache .import_linter_cache .hypothesis .benchmarks .coverage .coverage.*
 	find pool_sim_ros test -name __pycache__ -prune -exec rm -rf {} +
 
 setup: $(INSTALLED)
 
+lock:
+	@$(PYTHON) -m venv --clear $(LOCK_VENV)
+	@echo '*' > $(LOCK_VENV)/.gitignore
+	@$(LOCK_VENV)/bin/python -m pip install --quiet --disable-pip-version-check uv
+	$(LOCK) --universal --all-extras --output-file constraints/all.txt setup.py
+	$(LOCK) --universal --output-file constraints/pooltool.txt test/benchmark/pooltool-requirements.txt
+	echo $(OLDEST_PACKAGES) $(OLDEST_TESTS) | tr ' ' '\n' | $(LOCK) --output-file constraints/oldest.txt -
+
 # Editable, so that an edit counts at once; test/test_packaging.py tests what a plain install leaves.
-$(INSTALLED): $(CREATED) $(SETUP_FILES)
+$(INSTALLED): $(CREATED) $(SETUP_FILES) $(call LOCKED,all)
 	@echo 'Installing pool_sim_ros and what it needs into $(VENV); the first time takes a minute or two.'
-	@$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[$(EXTRAS)]'
+	@$(call INSTALL,all,$(PY)) --editable '.[$(EXTRAS)]'
 	@touch $@
 
 $(BENCH_INSTALLED): $(INSTALLED)
-	@$(PY) -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
+	@$(call INSTALL,all,$(PY)) --editable '.[bench]'
 	@touch $@
 
 # pooltool, which the benchmarks compare with, in an environment of its own; --no-deps because it
 # asks for a build of its renderer that PyPI does not have.
-$(POOLTOOL): test/benchmark/pooltool-requirements.txt
+$(POOLTOOL): test/benchmark/pooltool-requirements.txt $(call LOCKED,pooltool)
 	@echo 'Installing pooltool $(POOLTOOL_VERSION) into $(BENCH_VENV).'
 	@$(PYTHON) -m venv --clear $(BENCH_VENV)
 	@echo '*' > $(BENCH_VENV)/.gitignore
-	@$(BENCH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
-		-r test/benchmark/pooltool-requirements.txt
-	@$(BENCH_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps \
-		pooltool-billiards==$(POOLTOOL_VERSION)
+	@$(call INSTALL,pooltool,$(BENCH_VENV)/bin/python) -r test/benchmark/pooltool-requirements.txt
+	@$(call INSTALL,pooltool,$(BENCH_VENV)/bin/python) --no-deps pooltool-billiards==$(POOLTOOL_VERSION)
 	@touch $@
 
-$(OLDEST): setup.py
+$(OLDEST): setup.py $(call LOCKED,oldest)
 	@echo 'Installing $(OLDEST_PACKAGES) into $(OLDEST_VENV).'
 	@$(OLDEST_PYTHON) -m venv --clear $(OLDEST_VENV)
 	@echo '*' > $(OLDEST_VENV)/.gitignore
-	@$(OLDEST_VENV)/bin/python -m pip install --quiet --disable-pip-version-check \
-		$(OLDEST_PACKAGES) pytest hypothesis mpmath
+	@$(call INSTALL,oldest,$(OLDEST_VENV)/bin/python) $(OLDEST_PACKAGES) $(OLDEST_TESTS)
 	@touch $@
 
 $(CREATED):

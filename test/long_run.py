@@ -26,6 +26,7 @@ import numpy as np  # noqa: E402
 from tables import LAWS, kinetic_energy, worst_overlap  # noqa: E402
 
 from pool_sim_ros.physics import Table, report_table, simulate, simulate_many  # noqa: E402
+from pool_sim_ros.physics.cores import available_cores  # noqa: E402
 
 ALLOWED = 1e-9 * (1 + 1e-6)
 """How deep a ball may be in another or in a cushion, m."""
@@ -141,7 +142,7 @@ def first_endless(chunk: Chunk) -> str:
 def played(shots: int, seed: int, every: int) -> Iterator[Chunk]:
     """Yield the chunks in order, played on every core; leave with status 1 if one has no end."""
     next(chunks(1, seed)).play(1)  # compiles what the threads need
-    pool = ThreadPoolExecutor(len(os.sched_getaffinity(0)))
+    pool = ThreadPoolExecutor(available_cores())
     try:
         waiting = [(chunk, pool.submit(chunk.play, every)) for chunk in chunks(shots, seed)]
         for chunk, answer in waiting:

@@ -12,9 +12,13 @@ CHUNK = 4096
 
 def available_cores() -> int:
     """Return how many cores this process may use."""
-    if hasattr(os, 'sched_getaffinity'):  # Linux
+    try:
         return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    except (
+        AttributeError,
+        OSError,
+    ):  # macOS and Windows have no such call; a sandbox may refuse it
+        return os.cpu_count() or 1
 
 
 def share_out(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import threading
 from collections.abc import Callable
 from functools import cached_property, update_wrapper, wraps
 from typing import Any, TypeVar
@@ -10,6 +11,10 @@ from typing import Any, TypeVar
 import numpy as np
 from numba import config, njit, typeof, types
 from numba.extending import overload
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics import kernel_cache
+from pool_sim_ros.physics.plain_python import as_plain_python
 
 OPTIONS = {'error_model': 'numpy', 'nogil': True, '_nrt': False}
 """Divide as numpy does; let other threads run meanwhile. Never `fastmath`: results are promised bit
@@ -45,21 +50,38 @@ class Kernel:
 
     @cached_property
     def for_python(self) -> Any:
-        """numba's dispatcher, for Python; what it compiles is kept in numba's cache."""
-        return njit(cache=True, **OPTIONS)(self.py_func)
+        """numba's dispatcher, for Python; what it compiles is kept, see `kernel_cache`."""
+        with _making:  # threads that play first at once must not make two
+            if 'for_python' not in vars(self):
+                dispatcher = njit(**OPTIONS)(self.py_func)
+                kernel_cache.keep(dispatcher)
+                vars(self)['for_python'] = dispatcher
+            return vars(self)['for_python']
 
     def __call__(self, *args: Any) -> Any:
         return self.for_python(*args)
 
 
+_making = threading.Lock()
+
+
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function that is long or rarely called."""
-    return function if config.DISABLE_JIT else Kernel(function)
+    return as_plain_python(function) if config.DISABLE_JIT else Kernel(function)
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Compile a function into those that call it: to pass it arrays would cost more."""
-    return function if config.DISABLE_JIT else Kernel(function, forceinline=True)
+    """Compile a function into its callers: passing it arrays would cost more than it does."""
+    if config.DISABLE_JIT:
+        return as_plain_python(function)
+    return Kernel(function, forceinline=True)
+
+
+def for_kernels(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return an array of the one memory layout that the kernels are compiled for."""
+    if values.flags.c_contiguous and values.flags.writeable:
+        return values
+    return np.array(values, order='C')
 
 
 NONE = np.int64(0)
@@ -123,6 +145,8 @@ def call_directly(function: Any, key: tuple[type, ...], *args: Any) -> Any:
     if entry_point is not None:
         return entry_point(*args)
     returned = function(*args)
+    if not isinstance(function, Kernel):  # plain Python
+        return returned
     compiled = function.for_python.overloads[tuple(typeof(argument) for argument in args)]
     _entry_points[function, key] = compiled.entry_point
     return returned

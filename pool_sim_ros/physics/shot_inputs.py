@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE
+from pool_sim_ros.physics.jit import for_kernels
 from pool_sim_ros.physics.outcomes import (
     BAD_LAYOUT,
     BAD_VELOCITY,
@@ -84,13 +85,6 @@ def layouts_for(
         return for_kernels(layouts)
     wanted = f'({n}, 2)' if shots is None else f'({n}, 2) for all shots or ({shots}, {n}, 2)'
     raise ValueError(f'positions: shape {layouts.shape} must be {wanted}')
-
-
-def for_kernels(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return an array of the one memory layout that the kernels are compiled for."""
-    if values.flags.c_contiguous and values.flags.writeable:
-        return values
-    return np.array(values, order='C')
 
 
 def check_end(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -79,7 +80,7 @@ def simulate(
     if integrator == 'event':
         shot = work_area(table).play(moving, layout, limits)
     else:
-        shot = time_slicing.play(table, layout, moving, time_slice, limits)
+        shot = time_slicing.play(table, layout, moving, float(time_slice), limits)
     if shot.failed:
         raise_failed(table, shot.failed, 'this shot', moving, layout, limits[1])
     return Trajectory(
@@ -184,7 +185,7 @@ def simulate_many(
                 table,
                 at_rest,
                 (moving, layouts),
-                time_slice,
+                float(time_slice),
                 limits,
                 ends,
                 parts,
@@ -204,12 +205,19 @@ def simulate_many(
 
 
 def compile_kernels(table: Table) -> None:
-    """Compile whatever playing a shot needs, or load it from numba's cache.
+    """Compile whatever playing a shot needs, or load what was compiled before.
 
     The first time takes some seconds; a program that must answer at once calls this first.
+
+    Parameters
+    ----------
+    table : Table
+        Any of the same kind will do: how many balls it has, and its coefficients, change nothing.
     """
-    speed = 1e-3
+    # What is compiled depends on types alone. Two balls at rest need neither memory nor time.
+    small = replace(table, balls=table.balls[:2])
+    still, layout = np.zeros((len(small.balls), 2)), np.array(small.positions)
     for integrator in INTEGRATORS:
-        shot = simulate(table, (speed, 0.0), integrator=integrator, time_slice=1e-4, until=1e-3)
+        shot = simulate(small, still, positions=layout, integrator=integrator, until=0.0)
         shot.positions(0.0)
-        simulate_many(table, [(speed, 0.0)], integrator=integrator, time_slice=1e-4, until=1e-3)
+        simulate_many(small, still[np.newaxis], integrator=integrator, until=0.0)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pool_sim_ros.physics.jit import kernel
+from pool_sim_ros.physics.jit import for_kernels, kernel
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT
 
@@ -100,7 +100,7 @@ class Trajectory:
         asked = np.asarray(times, dtype=float)
         if asked.ndim > 1:
             raise ValueError(f'times: shape {asked.shape} must be one-dimensional')
-        flat = np.atleast_1d(asked)
+        flat = for_kernels(np.atleast_1d(asked))
         self._check(flat)
         n = len(self.final_positions)
         found = np.empty((len(flat), n, 2))

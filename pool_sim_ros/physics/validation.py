@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.boundary import is_outside
-from pool_sim_ros.physics.jit import kernel
+from pool_sim_ros.physics.jit import for_kernels, kernel
 from pool_sim_ros.physics.tolerances import OVERLAP
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def is_bad(table: Table, positions: NDArray[np.float64]) -> bool:
 
 def _fault(table: Table, positions: NDArray[np.float64]) -> tuple[int, int]:
     order = np.argsort(positions[:, 0])
-    return first_fault(positions, table.radii, table.for_kernels.boundary, order)
+    return first_fault(for_kernels(positions), table.radii, table.for_kernels.boundary, order)
 
 
 def describe_fault(table: Table, positions: NDArray[np.float64], i: int, j: int) -> str:

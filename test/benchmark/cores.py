@@ -10,6 +10,8 @@ import pytest
 @contextlib.contextmanager
 def cores(count: int) -> Iterator[None]:
     """Keep this thread, and the threads and processes it starts, on so many cores."""
+    if not hasattr(os, 'sched_setaffinity'):
+        pytest.skip('this system does not keep a process on some cores')
     allowed = os.sched_getaffinity(0)
     if len(allowed) < count:
         pytest.skip(f'needs {count} cores; this process may use {len(allowed)}')

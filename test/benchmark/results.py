@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import datetime
-import os
 import platform
 import statistics
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
+
+from pool_sim_ros.physics.cores import available_cores
 
 BEGIN, END = '<!-- figures: begin -->', '<!-- figures: end -->'
 """What the table stands between in the file that it is written to."""
@@ -127,11 +128,12 @@ def around_marks(file: Path) -> tuple[str, str]:
 def machine() -> str:
     """Return the processor and how many cores may be used."""
     model = platform.processor() or platform.machine()
-    for line in Path('/proc/cpuinfo').read_text().splitlines():
+    told = Path('/proc/cpuinfo')  # of Linux
+    for line in told.read_text().splitlines() if told.exists() else ():
         if line.startswith('model name'):
             model = line.partition(':')[2].strip()
             break
-    cores = len(os.sched_getaffinity(0))
+    cores = available_cores()
     return f'{model}, {cores} core{"s" if cores > 1 else ""}, {platform.system()}'
 
 

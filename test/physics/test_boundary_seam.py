@@ -28,8 +28,6 @@ from pool_sim_ros.physics.boundary import (
 )
 from pool_sim_ros.physics.validation import first_fault
 
-pytestmark = pytest.mark.usefixtures('nothing_cached')
-
 
 @pytest.fixture(params=['plain Python', pytest.param('compiled', marks=pytest.mark.soak)])
 def play_all(request, tmp_path):

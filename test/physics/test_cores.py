@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from pool_sim_ros.physics import cores
+from pool_sim_ros.physics import compile_kernels, cores, report_table, simulate, simulate_many
 from pool_sim_ros.physics.cores import available_cores, share_out
 
 
@@ -74,10 +74,31 @@ def test_available_cores(monkeypatch):
     assert available_cores() == 3
 
 
+def refuse(process):
+    raise PermissionError('a sandbox')
+
+
+@pytest.mark.parametrize('call', [None, refuse], ids=['missing', 'refused'])
 @pytest.mark.parametrize(('count', 'expected'), [(8, 8), (None, 1)])
 def test_available_cores_where_the_system_does_not_tell_a_process_s_own(
-    count, expected, monkeypatch
+    count, expected, call, monkeypatch
 ):
-    monkeypatch.delattr(os, 'sched_getaffinity', raising=False)
+    if call is None:
+        monkeypatch.delattr(os, 'sched_getaffinity', raising=False)
+    else:
+        monkeypatch.setattr(os, 'sched_getaffinity', call, raising=False)
     monkeypatch.setattr(os, 'cpu_count', lambda: count)
     assert available_cores() == expected
+
+
+def test_shots_are_shared_out_where_linux_is_missing(monkeypatch):
+    """As on macOS and Windows, whose os module lacks these names."""
+    for name in ('sched_getaffinity', 'sched_setaffinity'):
+        monkeypatch.delattr(os, name, raising=False)
+    monkeypatch.setattr(cores, 'CHUNK', 2)
+    table = report_table()
+    compile_kernels(table)
+    velocities = [(-1.0, 0.1 * k) for k in range(5)]
+    many = simulate_many(table, velocities)
+    for velocity, finals in zip(velocities, many.finals, strict=True):
+        assert (simulate(table, velocity).final_positions == finals).all()

@@ -1,17 +1,20 @@
 """An implementation is chosen by the type of a named tuple, in Python and in compiled code."""
 
+import threading
 from typing import NamedTuple
 
 import numpy as np
 import pytest
-from numba import config, njit
+from numba import config, njit, typeof
 from numba.core.errors import TypingError
 
 from pool_sim_ros.physics.jit import (
     NONE,
     OPTIONS,
+    Kernel,
     call_directly,
     chosen_by,
+    for_kernels,
     inlined,
     kernel,
     register,
@@ -163,13 +166,40 @@ def test_python_and_compiled_functions_call_the_same_kernel(decorate):
     assert triple.__name__ == 'triple' and triple.__doc__ == 'Return three sides.'
 
 
-def test_where_numba_compiles_nothing_a_kernel_is_python(monkeypatch):
+@pytest.mark.parametrize('decorate', [kernel, inlined])
+def test_where_numba_compiles_nothing_a_kernel_is_python(monkeypatch, decorate):
     monkeypatch.setattr(config, 'DISABLE_JIT', 1)
 
-    def one():
-        return 1
+    @decorate
+    def double_all(records, factor):
+        """Return the sum."""
+        for k in range(len(records)):
+            records[k].width *= 2.0
+        return sum(records.width) / factor
 
-    assert kernel(one) is one and inlined(one) is one
+    assert not isinstance(double_all, Kernel) and double_all.__doc__ == 'Return the sum.'
+    records = np.ones(3, [('width', 'f8')])
+    assert double_all(records, np.float64(0.0)) == np.inf
+    assert call_directly(double_all, Square, records, 2.0) == 6.0
+    assert call_directly(double_all, Square, records, 2.0) == 12.0
+    assert records['width'].tolist() == [8.0] * 3
+
+
+def test_threads_that_call_first_at_once_share_one_compilation():
+    for _ in range(50):
+        double = kernel(lambda x: 2.0 * x)
+        meeting, made = threading.Barrier(4, timeout=60.0), set()
+
+        def call(double=double, meeting=meeting, made=made):
+            meeting.wait()
+            made.add(double.for_python)
+
+        callers = [threading.Thread(target=call) for _ in range(4)]
+        for caller in callers:
+            caller.start()
+        for caller in callers:
+            caller.join()
+        assert made == {double.for_python}
 
 
 def test_none_is_no_literal():
@@ -207,3 +237,20 @@ def test_an_exception_of_a_direct_call_is_raised():
         assert call_directly(check, Square, 2.0) == 2.0
         with pytest.raises(ValueError, match='negative'):
             call_directly(check, Square, -2.0)
+
+
+@pytest.mark.parametrize(
+    'array',
+    [
+        np.ones((3, 2)),
+        np.ones((2, 3)).T,
+        np.ones((3, 4))[:, ::2],
+        np.frombuffer(np.ones(6).tobytes()).reshape(3, 2),
+        np.broadcast_to(1.0, (3, 2)),
+    ],
+    ids=['usual', 'transposed', 'strided', 'read-only', 'broadcast'],
+)
+def test_arrays_of_any_layout_are_one_type_to_a_kernel(array):
+    given = for_kernels(array)
+    assert typeof(given) == typeof(np.ones((1, 1))) and np.array_equal(given, array)
+    assert (given is array) == (typeof(array) == typeof(given))

@@ -25,8 +25,6 @@ from pool_sim_ros.physics.motion import (
     velocity_at,
 )
 
-pytestmark = pytest.mark.usefixtures('nothing_cached')
-
 
 @njit
 def set_off_and_look(balls, i, table, velocity, t):
