@@ -15,12 +15,9 @@ from pool_sim_ros.lazy import lazy_exports
 from pool_sim_ros.physics.units import INCH
 
 if TYPE_CHECKING:
-    from pool_sim_ros.physics.contacts import (
-        TwoBallCollision,
-        collide_balls,
-        collide_cushion,
-        two_ball_collision,
-    )
+    from pool_sim_ros.physics.balls import Ball
+    from pool_sim_ros.physics.contacts.single import collide_balls, collide_cushion
+    from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
     from pool_sim_ros.physics.cue import cue_strike
     from pool_sim_ros.physics.cushions import Cushions
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
@@ -30,7 +27,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
     from pool_sim_ros.physics.racks import RackKind, rack
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
-    from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, Ball, BallFriction, Table
+    from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, BallFriction, Table
     from pool_sim_ros.physics.trajectory import Trajectory
     from pool_sim_ros.physics.validation import check_layout
 else:
@@ -38,7 +35,7 @@ else:
         __name__,
         {
             'BALL_FRICTION_LAWS': 'table',
-            'Ball': 'table',
+            'Ball': 'balls',
             'BallFriction': 'table',
             'EventKind': 'log',
             'INTEGRATORS': 'integrators',
@@ -48,21 +45,21 @@ else:
             'REPORT_TIME_SLICE': 'integrators',
             'Table': 'table',
             'Trajectory': 'trajectory',
-            'TwoBallCollision': 'contacts',
+            'TwoBallCollision': 'contacts.two_ball',
             'CushionModel': 'law_names',
             'Cushions': 'cushions',
             'FrictionBound': 'law_names',
             'RackKind': 'racks',
             'check_layout': 'validation',
-            'collide_balls': 'contacts',
-            'collide_cushion': 'contacts',
+            'collide_balls': 'contacts.single',
+            'collide_cushion': 'contacts.single',
             'compile_kernels': 'shots',
             'cue_strike': 'cue',
             'rack': 'racks',
             'report_table': 'me212_table',
             'simulate': 'shots',
             'simulate_many': 'shots',
-            'two_ball_collision': 'contacts',
+            'two_ball_collision': 'contacts.two_ball',
         },
     )
 

@@ -17,12 +17,16 @@ class EventKind(IntEnum):
     BALL_BALL = 0
     CUSHION = 1
     STOP = 2
+    POCKETED = 3
+    ROLL = 4
 
 
 # Plain numbers: numba compiles no enumeration of this sort.
 BALL_BALL = int(EventKind.BALL_BALL)
 CUSHION = int(EventKind.CUSHION)
 STOP = int(EventKind.STOP)
+POCKETED = int(EventKind.POCKETED)
+ROLL = int(EventKind.ROLL)
 
 EVENT = np.dtype(
     [
@@ -53,6 +57,18 @@ SEGMENT = np.dtype(
 )
 """The motion of one ball from `t` on: position in m, velocity in m/s, acceleration in m/s^2."""
 
+SPIN_SEGMENT = np.dtype(
+    [
+        *((name, SEGMENT[name]) for name in SEGMENT.names or ()),
+        ('wx', 'f8'),
+        ('wy', 'f8'),
+        ('wz', 'f8'),
+        ('turn_x', 'f8'),
+        ('turn_y', 'f8'),
+    ]
+)
+"""The same, with the spin in rad/s and its change in rad/s^2; that of wz is the table's."""
+
 N_EVENTS, N_SEGMENTS, FIRST_HIT = 0, 1, 2
 """Places in `Log.counts`."""
 
@@ -69,9 +85,9 @@ class Log(NamedTuple):
     counts: NDArray[np.int64]  # events, segments, and the ball that the cue ball hit first
 
 
-def new_log(events: int, segments: int) -> Log:
-    """Return a log with room for so many events and segments."""
-    log = Log(np.empty(events, EVENT), np.empty(segments, SEGMENT), np.empty(3, np.int64))
+def new_log(events: int, segments: int, of: np.dtype[np.void] = SEGMENT) -> Log:
+    """Return a log with room for so many events and segments, `of` this type."""
+    log = Log(np.empty(events, EVENT), np.empty(segments, of), np.empty(3, np.int64))
     log.counts[:] = 0, 0, -1
     return log
 
@@ -115,10 +131,13 @@ def log_segment(
     position: tuple[float, float],
     velocity: tuple[float, float],
     acceleration: tuple[float, float],
-) -> None:
-    """Append the motion that `ball` begins at `t`, in s, m, m/s and m/s^2."""
+) -> int:
+    """Append the motion that `ball` begins at `t`, in s, m, m/s and m/s^2.
+
+    Returns its number, -1 where there was no room for it.
+    """
     if len(log.segments) == 0:
-        return
+        return -1
     count = log.counts[N_SEGMENTS]
     if count < len(log.segments):
         segment = log.segments[count]
@@ -128,6 +147,7 @@ def log_segment(
         segment.vx, segment.vy = velocity
         segment.ax, segment.ay = acceleration
     log.counts[N_SEGMENTS] = count + 1
+    return count if count < len(log.segments) else -1
 
 
 @inlined

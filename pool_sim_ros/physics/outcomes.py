@@ -16,6 +16,9 @@ BAD_VELOCITY = 4
 
 NO_POCKET = np.int64(-1).tobytes()
 
+NO_POCKETED: NDArray[np.int64] = np.empty((0, 0), np.int64)
+"""For a table without pockets: nothing to write."""
+
 
 class ShotTooLong(ValueError):  # noqa: N818, the public name
     """A shot had more events than it may have."""
@@ -31,16 +34,21 @@ class Shot(NamedTuple):
     final_velocities: NDArray[np.float64]
     events: NDArray[np.void]
     segments: NDArray[np.void]
+    pocketed: NDArray[np.int64]
     n_events: int
     first_hit: int
 
 
 class Ends(NamedTuple):
-    """The arrays of `Outcomes` that are written shot by shot, or a part of each."""
+    """The arrays of `Outcomes` that are written shot by shot, or a part of each.
+
+    `pocketed` has no columns where there are no pockets.
+    """
 
     finals: NDArray[np.float64]
     durations: NDArray[np.float64]
     event_counts: NDArray[np.int64]
+    pocketed: NDArray[np.int64]
     first_hit: NDArray[np.int64]
     failed: NDArray[np.int8]
 
@@ -50,6 +58,7 @@ class Ends(NamedTuple):
             self.finals[shots],
             self.durations[shots],
             self.event_counts[shots],
+            self.pocketed[shots] if self.pocketed.size else self.pocketed,
             self.first_hit[shots],
             self.failed[shots],
         )
@@ -89,8 +98,10 @@ class Outcomes(NamedTuple):
     offsets: NDArray[np.int64] | None
 
 
-def new_outcomes(shots: int, balls: int, out: Outcomes | None) -> Outcomes:
+def new_outcomes(shots: int, balls: int, pockets: bool, out: Outcomes | None) -> Outcomes:
     """Return room for what comes of so many shots, in the arrays of `out` where it has them.
+
+    Without `pockets` one number stands for all that is pocketed, which nobody can change.
 
     Raises
     ------
@@ -102,9 +113,16 @@ def new_outcomes(shots: int, balls: int, out: Outcomes | None) -> Outcomes:
         given = getattr(out, name, None)
         return np.empty(shape, dtype) if given is None else _checked(name, given, shape, dtype)
 
-    # No table has pockets yet: one number stands for all, which nobody can change.
-    pocketed: NDArray[np.int64] = np.ndarray((shots, balls), np.int64, NO_POCKET, strides=(0, 0))
-    if out is not None and out.pocketed is not None and out.pocketed.flags.writeable:
+    if pockets:
+        pocketed = room('pocketed', (shots, balls), np.int64)
+    else:
+        pocketed = np.ndarray((shots, balls), np.int64, NO_POCKET, strides=(0, 0))
+    if (
+        not pockets
+        and out is not None
+        and out.pocketed is not None
+        and out.pocketed.flags.writeable
+    ):
         pocketed = _checked('pocketed', out.pocketed, (shots, balls), np.int64)
         pocketed[...] = -1
     return Outcomes(

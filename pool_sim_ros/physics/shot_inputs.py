@@ -8,6 +8,7 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pool_sim_ros.physics.boundary import pocket_at
 from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE
 from pool_sim_ros.physics.jit import for_kernels
 from pool_sim_ros.physics.outcomes import (
@@ -21,6 +22,8 @@ from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import MAX_SPEED, MOST_EVENTS, MOST_EVENTS_A_BALL
 from pool_sim_ros.physics.validation import array, check_layout, number, whole_number
 
+NO_SPINS = np.empty((0, 3))
+
 
 def limits_of(
     table: Table,
@@ -32,6 +35,8 @@ def limits_of(
     """Return the end of the clock in s and the most events; raise ValueError."""
     if integrator not in INTEGRATORS:
         raise ValueError(f"integrator: {integrator!r} must be 'event' or 'time_slice'")
+    if integrator == 'time_slice' and table.motion != 'disc':
+        raise ValueError("integrator: 'time_slice' plays discs only, not a table of motion 'ball'")
     if time_slice is not REPORT_TIME_SLICE:
         number('time_slice', time_slice, above=0.0)
     if max_events is None:
@@ -75,6 +80,52 @@ def check_speeds(velocities: NDArray[np.float64]) -> None:
         raise ValueError(f'velocities: {fastest:g} m/s must be at most {MAX_SPEED:g}')
 
 
+def spins_for(table: Table, spins: ArrayLike | None, shots: int | None) -> NDArray[np.float64]:
+    """Return spins as (k, 3), or (m, k, 3) for so many shots; k is 0 where there are none.
+
+    Raises
+    ------
+    ValueError
+        For a wrong shape, a value that is not finite or too large, and on a table of discs.
+    """
+    n = len(table.balls)
+    lead = () if shots is None else (shots,)
+    if spins is None:
+        return NO_SPINS if shots is None else np.empty((shots, 0, 3))
+    if table.motion != 'ball':
+        raise ValueError("spins: discs do not spin; they need a table of motion 'ball'")
+    turning = array('spins', spins)
+    if turning.shape == (*lead, 3):
+        turning = turning[..., np.newaxis, :]
+    elif turning.shape != (*lead, n, 3):
+        wanted = ', '.join(map(str, lead + (3,)))
+        every = ', '.join(map(str, (*lead, n, 3)))
+        raise ValueError(
+            f'spins: shape {turning.shape} must be ({wanted}) for the cue ball alone or ({every})'
+        )
+    bad = ~np.isfinite(turning)
+    if bad.any():
+        raise ValueError(f'spins: {turning[bad][0]} is not finite')
+    fastest = float(np.abs(turning).max(initial=0.0)) * table.balls[0].radius
+    if fastest > MAX_SPEED:
+        raise ValueError(f'spins: {fastest:g} m/s at the surface must be at most {MAX_SPEED:g}')
+    return for_kernels(turning)
+
+
+def check_in_play(
+    table: Table, velocities: NDArray[np.float64], layout: NDArray[np.float64] | None
+) -> None:
+    """Raise ValueError where a shot strikes a ball that lies in a pocket."""
+    places = table.positions if layout is None or not len(layout) else layout
+    for i in np.flatnonzero(np.any(velocities != 0.0, axis=-1)):
+        pocket = pocket_at(table.for_kernels.boundary, *places[i])
+        if pocket >= 0:
+            raise ValueError(
+                f'velocities: ball {table.labels[i]!r} lies in pocket {pocket}; place it on the '
+                'cloth first'
+            )
+
+
 def layouts_for(
     table: Table, positions: ArrayLike, shots: int | None = None
 ) -> NDArray[np.float64]:
@@ -95,7 +146,7 @@ def check_end(
     time_slice: float,
 ) -> None:
     """Raise ValueError where balls would never come to rest."""
-    if integrator == 'event' and (until is not None or table.deceleration > 0.0):
+    if integrator == 'event' and (until is not None or table.comes_to_rest):
         return
     check_speeds(velocities)
     if until is not None:
@@ -103,8 +154,11 @@ def check_end(
     fastest = float(np.abs(velocities).max(initial=0.0))
     if fastest == 0.0:
         return
-    if table.deceleration == 0.0:
-        raise ValueError('until: None must be a time where mu_ball_surface is 0: nothing ends it')
+    if not table.comes_to_rest:
+        name = 'mu_ball_surface'
+        if table.motion == 'ball':
+            name = next(n for n in ('mu_slide', 'mu_roll', 'mu_spin') if not getattr(table, n))
+        raise ValueError(f'until: None must be a time where {name} is 0: nothing ends it')
     # A light ball that a heavy one strikes is faster than either was.
     if time_slice * table.deceleration < np.spacing(1e3 * fastest):
         raise ValueError(
@@ -123,8 +177,11 @@ def raise_failed(
     """Say why a shot failed."""
     if failed == BAD_VELOCITY:
         check_speeds(velocities)
-    if failed == BAD_LAYOUT and layout is not None:
-        check_layout(table, layout, 'positions' if shot == 'this shot' else f'positions of {shot}')
+    if failed == BAD_LAYOUT:
+        if layout is not None and len(layout):
+            name = 'positions' if shot == 'this shot' else f'positions of {shot}'
+            check_layout(table, layout, name)
+        check_in_play(table, velocities, layout)
     if failed == TOO_MANY_EVENTS:
         raise ShotTooLong(f'max_events: {shot} has more than {max_events} contacts and stops')
     if failed == RUNS_AWAY:

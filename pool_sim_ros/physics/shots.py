@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike
 
 from pool_sim_ros.physics import time_slice as time_slicing
 from pool_sim_ros.physics.cores import share_out
-from pool_sim_ros.physics.event_driven import copied, play_parts, work_area
+from pool_sim_ros.physics.event_driven import play_parts, work_area
 from pool_sim_ros.physics.event_store import EventStore
 from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
 from pool_sim_ros.physics.outcomes import (
+    NO_POCKETED,
     Ends,
     Outcomes,
     new_outcomes,
@@ -25,6 +26,7 @@ from pool_sim_ros.physics.shot_inputs import (
     layouts_for,
     limits_of,
     raise_failed,
+    spins_for,
     velocities_for,
 )
 from pool_sim_ros.physics.table import Table
@@ -36,6 +38,7 @@ def simulate(
     table: Table,
     velocities: ArrayLike,
     *,
+    spins: ArrayLike | None = None,
     positions: ArrayLike | None = None,
     integrator: Integrator = 'event',
     time_slice: float = REPORT_TIME_SLICE,
@@ -49,6 +52,9 @@ def simulate(
     table : Table
     velocities : array_like of shape (2,) or (n, 2)
         Of the cue ball alone, or of every ball, each component at most 1e6 m/s.
+    spins : array_like of shape (3,) or (n, 3), optional
+        Angular velocities of the cue ball alone, or of every ball, rad/s; z points up. Only on a
+        table of motion 'ball'.
     positions : array_like of shape (n, 2), optional
         Where the balls start instead of their own places, m.
     integrator : {'event', 'time_slice'}, optional
@@ -75,10 +81,11 @@ def simulate(
     """
     limits = limits_of(table, integrator, time_slice, until, max_events)
     moving = velocities_for(table, velocities, 1)
+    turning = spins_for(table, spins, None)
     layout = None if positions is None else layouts_for(table, positions)
     check_end(table, moving, until, integrator, time_slice)
     if integrator == 'event':
-        shot = work_area(table).play(moving, layout, limits)
+        shot = work_area(table).play(moving, turning, layout, limits)
     else:
         shot = time_slicing.play(table, layout, moving, float(time_slice), limits)
     if shot.failed:
@@ -91,6 +98,7 @@ def simulate(
         shot.events,
         shot.segments,
         shot.complete,
+        shot.pocketed,
     )
 
 
@@ -98,6 +106,7 @@ def simulate_many(
     table: Table,
     velocities: ArrayLike,
     *,
+    spins: ArrayLike | None = None,
     positions: ArrayLike | None = None,
     integrator: Integrator = 'event',
     time_slice: float = REPORT_TIME_SLICE,
@@ -116,6 +125,8 @@ def simulate_many(
     table : Table
     velocities : array_like of shape (m, 2) or (m, n, 2)
         For each shot that of the cue ball alone, or of every ball, each component at most 1e6 m/s.
+    spins : array_like of shape (m, 3) or (m, n, 3), optional
+        As in `simulate`, shot by shot.
     positions : array_like of shape (n, 2) or (m, n, 2), optional
         Where the balls start instead of their own places, in all shots or shot by shot, m.
     integrator, time_slice, until, max_events
@@ -154,6 +165,7 @@ def simulate_many(
         threads = whole_number('threads', threads, least=1)
     moving = velocities_for(table, velocities, 2)
     shots = len(moving)
+    turning = spins_for(table, spins, shots)
     at_rest, layouts = table.balls_at_rest, np.empty((shots, 0, 2))
     if positions is not None:
         given = layouts_for(table, positions, shots)
@@ -161,14 +173,14 @@ def simulate_many(
             layouts = given
         else:
             check_layout(table, given)
-            at_rest = copied(at_rest)
-            at_rest['x'], at_rest['y'] = given.T
+            at_rest = table.records_at(given)
     check_end(table, moving, until, integrator, time_slice)
-    outcomes = new_outcomes(shots, len(table.balls), out)
+    outcomes = new_outcomes(shots, len(table.balls), len(table.pockets) > 0, out)
     ends = Ends(
         outcomes.finals,
         outcomes.durations,
         outcomes.event_counts,
+        outcomes.pocketed if len(table.pockets) else NO_POCKETED,
         outcomes.first_hit,
         outcomes.failed,
     )
@@ -178,7 +190,15 @@ def simulate_many(
     def play(parts: Any, shared: bool) -> None:
         if integrator == 'event':
             play_parts(
-                table, at_rest, (moving, layouts), limits, ends, parts, shared, store, counter.add
+                table,
+                at_rest,
+                (moving, turning, layouts),
+                limits,
+                ends,
+                parts,
+                shared,
+                store,
+                counter.add,
             )
         else:
             time_slicing.play_parts(

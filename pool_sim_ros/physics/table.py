@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pool_sim_ros.physics import ball_table
+from pool_sim_ros.physics.balls import Ball, checked_balls, store
 from pool_sim_ros.physics.boundary import Rectangle
-from pool_sim_ros.physics.motion import DiscTable, balls_at_rest
-from pool_sim_ros.physics.validation import check_layout, number, numbers
+from pool_sim_ros.physics.cushions import Cushions
+from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
+from pool_sim_ros.physics.log import SEGMENT, SPIN_SEGMENT
+from pool_sim_ros.physics.motion import BallTable, DiscTable, ball, disc
+from pool_sim_ros.physics.validation import check_layout, number
 
-BallFriction = Literal['report', 'coulomb']
+Motion = Literal['disc', 'ball']
+MOTIONS: tuple[Motion, ...] = get_args(Motion)
+
+BallFriction = Literal['report', 'coulomb', 'alciatore']
 BALL_FRICTION_LAWS: tuple[BallFriction, ...] = get_args(BallFriction)
+LAWS_OF_MOTION = {'disc': ('report', 'coulomb'), 'ball': ('coulomb', 'alciatore')}
 
-MASSES = (1e-9, 1e9)
-RADII = (1e-6, 1e3)
 MAX_SIZE = 1e4
 GRAVITIES = (1e-6, 1e6)
 MAX_FRICTION = 1e3
@@ -27,50 +35,7 @@ MIN_DECELERATION = 1e-9
 rounding error of a position stays well below `validation.OVERLAP`."""
 
 
-@dataclass(frozen=True)
-class Ball:
-    """A ball and where it starts.
-
-    Parameters
-    ----------
-    label : str
-        What is written on it, unique on its table.
-    mass : float
-        1e-9 to 1e9 kg.
-    radius : float
-        1e-6 to 1e3 m.
-    position : tuple of float
-        Centre (x, y) on the cloth, m.
-    color : tuple of float, optional
-        Red, green, blue, each 0 to 1.
-    is_cue : bool, optional
-        Whether contacts with this ball use the cue ball's restitution.
-
-    Raises
-    ------
-    ValueError
-        Where a value is not finite or out of its range.
-    """
-
-    label: str
-    mass: float
-    radius: float
-    position: tuple[float, float]
-    color: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    is_cue: bool = False
-
-    def __post_init__(self) -> None:
-        name = f'ball {self.label!r}'
-        if not isinstance(self.label, str) or not self.label:
-            raise ValueError(f'{name}: label must be a non-empty string')
-        _store(self, 'mass', number(f'{name}: mass', self.mass, *MASSES))
-        _store(self, 'radius', number(f'{name}: radius', self.radius, *RADII))
-        _store(self, 'position', numbers(f'{name}: position', self.position, 2))
-        _store(self, 'color', numbers(f'{name}: color', self.color, 3, 0.0, 1.0))
-        _store(self, 'is_cue', bool(self.is_cue))
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Table:
     """A table, the balls on it and the coefficients of their contacts.
 
@@ -91,13 +56,32 @@ class Table:
         other pair, a ball and a cushion.
     gravity : float, optional
         1e-6 to 1e6 m/s^2.
-    ball_friction : {'report', 'coulomb'}, optional
-        The law of friction between two balls.
+    ball_friction : {'report', 'coulomb', 'alciatore'}, optional
+        The law of friction between two balls: the report's, for discs; a constant coefficient;
+        or one that falls with the slip, for balls that spin, which does not use `mu_ball_ball`.
+    motion : {'disc', 'ball'}, optional
+        Discs slide and lose speed along their own line, by `mu_ball_surface`; balls slide, roll and
+        spin, and need the four coefficients that follow.
+    mu_slide, mu_roll : float, optional
+        Coefficients of friction on the cloth of a ball that slides and of one that rolls.
+    mu_spin : float, optional
+        The spin about the vertical axis falls by ``5 mu_spin g / (2 R)``, mu_spin in m.
+    nose_height : float, optional
+        Of the cushions' edge above the cloth, m: between half a ball's radius and two.
+    cushion_model : {'han', 'impulse', 'stronge', 'mathavan'}, optional
+        What a cushion does to a ball that spins.
+    friction_bound : {'impulse', 'restitution'}, optional
+        What bounds the friction of two balls that spin: the normal impulse, or e times the closing
+        speed, as pooltool has it.
+    cushions : Cushions, optional
+        Those of a table of motion 'ball' that is no plain rectangle.
+    pockets : array_like of shape (q, 3), optional
+        Centre x, y and radius of the circles in which a ball's centre is caught, m.
 
     Raises
     ------
     ValueError
-        Where a value is out of its range; names the field and the value.
+        Where a value is missing or out of its range; names the field and the value.
 
     Notes
     -----
@@ -116,27 +100,76 @@ class Table:
     e_ball_cushion: float = 0.70
     gravity: float = 9.80665
     ball_friction: BallFriction = 'report'
+    motion: Motion = 'disc'
+    mu_slide: float | None = None
+    mu_roll: float | None = None
+    mu_spin: float | None = None
+    nose_height: float | None = None
+    cushion_model: CushionModel = 'han'
+    friction_bound: FrictionBound = 'impulse'
+    cushions: Cushions | None = None
+    pockets: NDArray[np.float64] = ()  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         for name in ('length', 'width'):
-            _store(self, name, number(name, getattr(self, name), above=0.0, most=MAX_SIZE))
-        _store(self, 'gravity', number('gravity', self.gravity, *GRAVITIES))
+            store(self, name, number(name, getattr(self, name), above=0.0, most=MAX_SIZE))
+        store(self, 'gravity', number('gravity', self.gravity, *GRAVITIES))
         for name in ('mu_ball_ball', 'mu_ball_surface', 'mu_ball_cushion'):
-            _store(self, name, number(name, getattr(self, name), least=0.0, most=MAX_FRICTION))
+            store(self, name, number(name, getattr(self, name), least=0.0, most=MAX_FRICTION))
         if 0.0 < self.deceleration < MIN_DECELERATION:
             raise ValueError(
                 f'mu_ball_surface: {self.mu_ball_surface} must be 0 or at least '
                 f'{MIN_DECELERATION / self.gravity:.3g}, so that the balls stop some day'
             )
         for name in ('e_cue_ball', 'e_ball_ball', 'e_ball_cushion'):
-            _store(self, name, number(name, getattr(self, name), least=0.0, most=1.0))
-        if self.ball_friction not in BALL_FRICTION_LAWS:
+            store(self, name, number(name, getattr(self, name), least=0.0, most=1.0))
+        if self.motion not in MOTIONS:
+            raise ValueError(f"motion: {self.motion!r} must be 'disc' or 'ball'")
+        laws = LAWS_OF_MOTION[self.motion]
+        if self.ball_friction not in laws:
             raise ValueError(
-                f"ball_friction: {self.ball_friction!r} is not a law; it must be 'report' or "
-                "'coulomb'"
+                f'ball_friction: {self.ball_friction!r} is not a law of motion {self.motion!r}; it '
+                f'must be {laws[0]!r} or {laws[1]!r}'
             )
-        _store(self, 'balls', _balls(self.balls))
+        store(self, 'balls', checked_balls(self.balls))
+        if self.motion == 'ball':
+            for name, value in ball_table.checked_fields(self).items():
+                store(self, name, value)
+        else:
+            ball_table.check_nothing_given(self)
         check_layout(self, self.positions, 'balls')
+
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, Table) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    @cached_property
+    def _key(self) -> tuple[object, ...]:
+        values = (getattr(self, field.name) for field in fields(self))
+        return tuple(v.tobytes() if isinstance(v, np.ndarray) else v for v in values)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the table to a JSON file."""
+        from pool_sim_ros.physics.table_file import save_table
+
+        save_table(self, path)
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Table:
+        """Read a table from a JSON file; raises ValueError, naming what is wrong, and OSError."""
+        from pool_sim_ros.physics.table_file import load_table
+
+        return load_table(path)
+
+    def index(self, label: str) -> int:
+        """Return the index of the ball with a label; raise ValueError where there is none."""
+        if label not in self.labels:
+            raise ValueError(
+                f'label: {label!r} is not on the table; it has {", ".join(self.labels)}'
+            )
+        return self.labels.index(label)
 
     @cached_property
     def labels(self) -> tuple[str, ...]:
@@ -164,13 +197,27 @@ class Table:
         return _read_only([ball.is_cue for ball in self.balls], dtype=bool)
 
     @property
+    def segment_type(self) -> np.dtype[np.void]:
+        """The type of `Trajectory.segments`."""
+        return SPIN_SEGMENT if self.motion == 'ball' else SEGMENT
+
+    @property
+    def comes_to_rest(self) -> bool:
+        """Whether something slows the balls in all that they do."""
+        if self.motion == 'ball':
+            return bool(self.mu_slide and self.mu_roll and self.mu_spin)
+        return self.deceleration > 0.0
+
+    @property
     def deceleration(self) -> float:
         """What a moving ball loses on the cloth, m/s^2 (report, Equation 10)."""
         return self.mu_ball_surface * self.gravity
 
     @cached_property
-    def for_kernels(self) -> DiscTable:
+    def for_kernels(self) -> DiscTable | BallTable:
         """What the kernels know of this table; its type chooses how balls move."""
+        if self.motion == 'ball':
+            return ball_table.for_kernels(self)
         return DiscTable(
             boundary=Rectangle(self.length, self.width),
             deceleration=self.deceleration,
@@ -186,32 +233,16 @@ class Table:
     @cached_property
     def balls_at_rest(self) -> NDArray[np.void]:
         """The kernels' records of the balls where they start, (n,); read-only."""
-        records = balls_at_rest(self.positions, self.radii, self.masses, self.is_cue)
+        records = self.records_at(self.positions)
         records.flags.writeable = False
         return records
 
-
-def _store(instance: object, name: str, value: object) -> None:
-    object.__setattr__(instance, name, value)
-
-
-def _balls(balls: Iterable[Ball]) -> tuple[Ball, ...]:
-    try:
-        balls = tuple(balls)
-    except TypeError:
-        raise ValueError(f'balls: {balls!r} is not a sequence of Ball') from None
-    if not balls:
-        raise ValueError('balls: there are none; a table needs at least one ball')
-    seen: dict[str, int] = {}
-    for index, ball in enumerate(balls):
-        if not isinstance(ball, Ball):
-            raise ValueError(f'balls[{index}]: {ball!r} is not a Ball')
-        if ball.label in seen:
-            raise ValueError(
-                f'balls[{index}]: label {ball.label!r} is already that of balls[{seen[ball.label]}]'
-            )
-        seen[ball.label] = index
-    return balls
+    def records_at(self, positions: NDArray[np.float64]) -> NDArray[np.void]:
+        """Return the kernels' records of the balls at rest at (n, 2) positions, m."""
+        if self.motion == 'ball':
+            boundary = self.for_kernels.boundary
+            return ball.balls_at_rest(positions, self.radii, self.masses, self.is_cue, boundary)
+        return disc.balls_at_rest(positions, self.radii, self.masses, self.is_cue)
 
 
 def _read_only(values: Sequence[object], dtype: type = float) -> NDArray[Any]:

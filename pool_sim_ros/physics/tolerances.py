@@ -28,11 +28,25 @@ STRAIGHT = 1e-12
 
 # Contact times
 
+PRESSED = 1e-12
+"""Depth in m up to which a ball that is pressed to a cushion is so by rounding alone."""
+
 MAX_STEPS = 200
 """Steps towards one contact time. Convergence is quadratic; in a graze it is linear: some 50."""
 
 ROOT_MARGIN = 1e-9
 """Relative margin within which rounding might decide whether a parabola has a root."""
+
+# Phases of a ball with spin
+
+SHORTEST_PHASE = 2.0**-52
+"""Phases that are shorter than this part of the time, or of a second, are left out."""
+
+SLIP_ROUNDING = 1e-14
+"""Slip, as a part of the speeds that make it up, that is rounding: the ball rolls."""
+
+LONGEST = 1e9
+"""How far ahead in s a motion is looked at that nothing slows down."""
 
 # Contacts that close slowly, or again and again
 
@@ -73,6 +87,12 @@ SETTLE_EVERY = 8
 REPEAT_WINDOW = 1e-3
 """Time in s within which a weak contact repeats an earlier one."""
 
+LEAST_PARTING = 1e-3
+"""The same as V_MIN for balls that spin, m/s: what the cloth presses on is ended by this."""
+
+PRESS_WINDOW = 0.1
+"""The same as REPEAT_WINDOW for balls that spin, s: rolling on in contact, they meet that rarely."""
+
 ROUND = 1e-6
 """Time in s within which a contact belongs to the same rattle as the one before."""
 
@@ -81,6 +101,17 @@ MAX_ROUNDS = 200
 
 LAST_ROUND = 250
 """The same, after which all that touches moves as one: it is wedged and cannot part."""
+
+# Orientations
+
+TURN_ERROR = 1e-10
+"""Error in rad that one stretch of motion may add to how a ball is turned: a shot has some hundred."""
+
+UNIT_QUATERNION = 1e-6
+"""By how much the length of a unit quaternion may be off that is given."""
+
+MAX_TURN_STEPS = 1_000_000
+"""Steps in which one stretch is integrated."""
 
 # Impulses
 

@@ -9,9 +9,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pool_sim_ros.physics.jit import for_kernels, kernel
+from pool_sim_ros.physics.jit import for_kernels, inlined, kernel
+from pool_sim_ros.physics.orientation import look_up_orientations
+from pool_sim_ros.physics.outcomes import NO_POCKETED
 from pool_sim_ros.physics.table import Table
-from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT
+from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT, UNIT_QUATERNION
+from pool_sim_ros.physics.validation import array
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +50,14 @@ class Trajectory:
     events: NDArray[np.void]
     segments: NDArray[np.void]
     complete: bool
+    _pocketed: NDArray[np.int64] = NO_POCKETED
+
+    @cached_property
+    def pocketed(self) -> NDArray[np.int64]:
+        """Number of the pocket in which each ball is at the end, (n,); -1 for none."""
+        if self._pocketed.size:
+            return self._pocketed
+        return np.full(len(self.final_positions), -1)
 
     def positions(self, times: ArrayLike) -> NDArray[np.float64]:
         """Return where the balls are.
@@ -71,6 +82,55 @@ class Trajectory:
     def velocities(self, times: ArrayLike) -> NDArray[np.float64]:
         """Return how fast the balls move, in m/s; as `positions`. At an event: just after it."""
         return self._look_up(times, 1)
+
+    def spins(self, times: ArrayLike) -> NDArray[np.float64]:
+        """Return the angular velocities, (k, n, 3) or (n, 3) in rad/s; as `positions`.
+
+        Zero on a table of discs.
+        """
+        asked, flat = self._times(times)
+        found = np.zeros((len(flat), len(self.final_positions), 3))
+        if self.table.motion == 'ball':
+            first, order = self._by_ball
+            fades = self.table.for_kernels.spin
+            look_up_spins(self.segments, first, order, flat, fades, found)
+        return found if asked.ndim else found[0]
+
+    def orientations(
+        self, times: ArrayLike, orientations0: ArrayLike | None = None
+    ) -> NDArray[np.float64]:
+        """Return how the balls are turned.
+
+        Parameters
+        ----------
+        times : array_like of shape (k,) or float
+            As of `positions`.
+        orientations0 : array_like of shape (n, 4), optional
+            Unit quaternions x, y, z, w at the strike; by default nothing is turned.
+
+        Returns
+        -------
+        ndarray of shape (k, n, 4), or (n, 4) for a single time
+            Unit quaternions x, y, z, w, within 1e-6 rad. In order of time no sign jumps. A disc
+            stays as it was.
+
+        Raises
+        ------
+        ValueError
+            As `positions`; and for orientations that are no unit quaternions.
+        """
+        asked, flat = self._times(times)
+        n = len(self.final_positions)
+        start = _unit_quaternions(orientations0, n)
+        found = np.empty((len(flat) + 1, n, 4))
+        found[:] = start
+        if self.table.motion == 'ball':
+            first, order = self._by_ball
+            in_time = np.argsort(flat, kind='stable')
+            fades = self.table.for_kernels.spin
+            look_up_orientations(self.segments, first, order, flat[in_time], fades, found)
+            found[1:][in_time] = found[1:].copy()
+        return found[1:] if asked.ndim else found[1]
 
     def path(self, ball: int) -> NDArray[np.float64]:
         """Return the path of one ball, from its start to its end.
@@ -97,16 +157,20 @@ class Trajectory:
         return joined[np.concatenate([[True], new])]
 
     def _look_up(self, times: ArrayLike, what: int) -> NDArray[np.float64]:
-        asked = np.asarray(times, dtype=float)
-        if asked.ndim > 1:
-            raise ValueError(f'times: shape {asked.shape} must be one-dimensional')
-        flat = for_kernels(np.atleast_1d(asked))
-        self._check(flat)
+        asked, flat = self._times(times)
         n = len(self.final_positions)
         found = np.empty((len(flat), n, 2))
         first, order = self._by_ball
         look_up(self.segments, first, order, flat, what, found)
         return found if asked.ndim else found[0]
+
+    def _times(self, times: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        asked = np.asarray(times, dtype=float)
+        if asked.ndim > 1:
+            raise ValueError(f'times: shape {asked.shape} must be one-dimensional')
+        flat = for_kernels(np.atleast_1d(asked))
+        self._check(flat)
+        return asked, flat
 
     def _check(self, times: NDArray[np.float64]) -> None:
         bad = ~(times >= 0.0)
@@ -122,6 +186,19 @@ class Trajectory:
         order = np.argsort(self.segments['ball'], kind='stable')
         counts = np.bincount(self.segments['ball'], minlength=len(self.final_positions))
         return np.concatenate([[0], np.cumsum(counts)]), order
+
+
+def _unit_quaternions(given: ArrayLike | None, n: int) -> NDArray[np.float64]:
+    """Return (n, 4) unit quaternions; raise ValueError where they are none."""
+    if given is None:
+        return np.tile((0.0, 0.0, 0.0, 1.0), (n, 1))
+    start = array('orientations0', given)
+    if start.shape != (n, 4):
+        raise ValueError(f'orientations0: shape {start.shape} must be ({n}, 4)')
+    lengths = np.linalg.norm(start, axis=1)
+    if not np.all(np.abs(lengths - 1.0) <= UNIT_QUATERNION):
+        raise ValueError(f'orientations0: {start[0]} must be unit quaternions x, y, z, w')
+    return start / lengths[:, np.newaxis]
 
 
 def _curve(segment: np.void, lasts: float) -> NDArray[np.float64]:
@@ -163,14 +240,7 @@ def look_up(
     """
     for i in range(len(first) - 1):
         for k in range(len(times)):
-            low, high = first[i], first[i + 1]
-            while high - low > 1:
-                middle = (low + high) // 2
-                if segments[order[middle]].t <= times[k]:
-                    low = middle
-                else:
-                    high = middle
-            segment = segments[order[low]]
+            segment = segments[segment_at(segments, first, order, i, times[k])]
             elapsed = times[k] - segment.t
             if what == 1:
                 found[k, i, 0] = segment.vx + segment.ax * elapsed
@@ -181,3 +251,45 @@ def look_up(
             else:
                 found[k, i, 0] = segment.x + elapsed * (segment.vx + 0.5 * segment.ax * elapsed)
                 found[k, i, 1] = segment.y + elapsed * (segment.vy + 0.5 * segment.ay * elapsed)
+
+
+@kernel
+def look_up_spins(
+    segments: NDArray[np.void],
+    first: NDArray[np.int64],
+    order: NDArray[np.int64],
+    times: NDArray[np.float64],
+    fades: float,
+    found: NDArray[np.float64],
+) -> None:
+    """Fill `found`, (k, n, 3), with spins in rad/s; as `look_up`.
+
+    The spin about the vertical axis falls by `fades` rad/s^2.
+    """
+    for i in range(len(first) - 1):
+        for k in range(len(times)):
+            segment = segments[segment_at(segments, first, order, i, times[k])]
+            elapsed = times[k] - segment.t
+            left = max(abs(segment.wz) - fades * elapsed, 0.0)
+            found[k, i, 0] = segment.wx + segment.turn_x * elapsed
+            found[k, i, 1] = segment.wy + segment.turn_y * elapsed
+            found[k, i, 2] = left if segment.wz > 0.0 else -left
+
+
+@inlined
+def segment_at(
+    segments: NDArray[np.void],
+    first: NDArray[np.int64],
+    order: NDArray[np.int64],
+    i: int,
+    t: float,
+) -> int:
+    """Return the number of the segment of ball `i` at `t`, s."""
+    low, high = first[i], first[i + 1]
+    while high - low > 1:
+        middle = (low + high) // 2
+        if segments[order[middle]].t <= t:
+            low = middle
+        else:
+            high = middle
+    return order[low]

@@ -25,8 +25,8 @@ from pool_sim_ros.physics.contacts.edge import (
     parting_of_push,
     to_contact_axes,
 )
+from pool_sim_ros.physics.contacts.laws import bounce, collide_pair
 from pool_sim_ros.physics.contacts.rigid_edge import rebound
-from pool_sim_ros.physics.contacts.single import collide_balls, collide_cushion
 from pool_sim_ros.physics.contacts.spheres import (
     BallLaw,
     collide_spheres,
@@ -34,16 +34,14 @@ from pool_sim_ros.physics.contacts.spheres import (
     friction_of_balls,
     rub_spheres,
 )
-from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
 
 __all__ = [
     'BallLaw',
     'EdgeLaw',
-    'TwoBallCollision',
-    'collide_balls',
-    'collide_cushion',
+    'bounce',
     'collide_disc_with_cushion',
     'collide_discs',
+    'collide_pair',
     'collide_spheres',
     'collide_with_edge',
     'contact_normal',
@@ -63,5 +61,4 @@ __all__ = [
     'rub_spheres',
     'sign',
     'to_contact_axes',
-    'two_ball_collision',
 ]

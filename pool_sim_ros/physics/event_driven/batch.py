@@ -10,6 +10,7 @@ from pool_sim_ros.physics.event_driven.layout import place
 from pool_sim_ros.physics.event_driven.state import Start, State, reset
 from pool_sim_ros.physics.jit import inlined, kernel
 from pool_sim_ros.physics.log import FIRST_HIT, N_EVENTS
+from pool_sim_ros.physics.motion import in_play, pocket_of
 from pool_sim_ros.physics.outcomes import BAD_LAYOUT, BAD_VELOCITY, PLAYED, RUNS_AWAY, Ends
 from pool_sim_ros.physics.tolerances import MAX_SPEED
 
@@ -21,7 +22,7 @@ FIRST_ROOM = 64
 def play_some(
     state: State,
     start: Start,
-    shots: tuple[NDArray[np.float64], NDArray[np.float64]],
+    shots: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     begun: tuple[int, int],
     limits: tuple[float, int],
     ends: tuple[Ends, NDArray[np.float64], NDArray[np.void]],
@@ -34,7 +35,8 @@ def play_some(
     ----------
     state, start
     shots : tuple of ndarray
-        Velocities, (m, n or 1, 2), and layouts, (m, n, 2); with (m, 0, 2) all begin at the start.
+        Velocities, (m, n or 1, 2); spins, (m, n, 1 or 0, 3); and layouts, (m, n or 0, 2): without
+        any all begin at the start.
     begun : tuple of int
         How many were played before, and how many events are in the room already.
     limits : tuple
@@ -50,7 +52,7 @@ def play_some(
     complete : bool
         Whether all balls rested at the end of the last shot.
     """
-    velocities, layouts = shots
+    velocities, spins, layouts = shots
     until, max_events = limits
     results, final_velocities, events = ends
     log = state.log
@@ -64,8 +66,10 @@ def play_some(
             failed = BAD_VELOCITY
         elif layouts.shape[1] > 0 and not place(state, start, layouts[shot]):
             failed = BAD_LAYOUT
+        elif any_out_of_play(state, velocities[shot]):
+            failed = BAD_LAYOUT
         else:
-            most = strike(state, velocities[shot])
+            most = strike(state, velocities[shot], spins[shot])
             failed = run(state, until, most, max_events)
             duration, complete, lost = finish(
                 state, until, most, results.finals[shot], final_velocities
@@ -83,6 +87,8 @@ def play_some(
         results.event_counts[shot] = count
         results.first_hit[shot] = log.counts[FIRST_HIT]
         results.failed[shot] = failed
+        for i in range(results.pocketed.shape[1]):
+            results.pocketed[shot, i] = pocket_of(state.balls[i], state.table)
         if failed != PLAYED:
             mark(results, shot)
     return len(velocities), filled, complete
@@ -98,6 +104,16 @@ def any_too_fast(velocities: NDArray[np.float64]) -> bool:
     return False
 
 
+@inlined
+def any_out_of_play(state: State, velocities: NDArray[np.float64]) -> bool:
+    """Return whether a ball that is struck, (k, 2) in m/s, lies in a pocket."""
+    for i in range(len(velocities)):
+        struck = velocities[i, 0] != 0.0 or velocities[i, 1] != 0.0
+        if struck and not in_play(state.balls[i], state.table):
+            return True
+    return False
+
+
 @kernel
 def mark(ends: Ends, shot: int) -> None:
     """Leave NaN and -1 where a shot failed."""
@@ -105,3 +121,5 @@ def mark(ends: Ends, shot: int) -> None:
     ends.event_counts[shot] = ends.first_hit[shot] = -1
     for i in range(ends.finals.shape[1]):
         ends.finals[shot, i, 0] = ends.finals[shot, i, 1] = np.nan
+    for i in range(ends.pocketed.shape[1]):
+        ends.pocketed[shot, i] = -1

@@ -61,8 +61,9 @@ def fill(balls: NDArray[np.void], grid: CellGrid) -> None:
             grid.first[row, column] = len(balls)
     for i in range(len(balls)):
         ball = balls[i]
-        ball.cell_x = min(max(int(ball.x / grid.width), 0), columns - 1)
-        ball.cell_y = min(max(int(ball.y / grid.height), 0), rows - 1)
+        # Where a ball in a pocket is, which is far away, no integer can tell.
+        ball.cell_x = int(min(max(ball.x / grid.width, 0.0), columns - 1.0))
+        ball.cell_y = int(min(max(ball.y / grid.height, 0.0), rows - 1.0))
         enter(balls, grid, i)
 
 

@@ -48,6 +48,11 @@ MEMBER = np.dtype(
         ('before_x', 'f8'),  # velocity before friction, m/s
         ('before_y', 'f8'),
         ('pushes', 'f8'),  # how many contacts push it
+        ('dvx', 'f8'),  # what friction changes of its velocity, m/s, and spin, rad/s
+        ('dvy', 'f8'),
+        ('dwx', 'f8'),
+        ('dwy', 'f8'),
+        ('dwz', 'f8'),
     ]
 )
 """A ball in the group."""

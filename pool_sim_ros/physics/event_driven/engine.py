@@ -5,20 +5,37 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.boundary import PHASE_END
+from pool_sim_ros.physics.boundary import (
+    PHASE_END,
+    is_pocket,
+    pocket_centre,
+    pocket_of_partner,
+)
+from pool_sim_ros.physics.contacts import contact_normal
 from pool_sim_ros.physics.event_driven.event_queue import first
 from pool_sim_ros.physics.event_driven.few_balls import note_motion
-from pool_sim_ros.physics.event_driven.prediction import cross, lay_down, predict, predict_after
+from pool_sim_ros.physics.event_driven.prediction import (
+    cross,
+    lay_down,
+    predict,
+    predict_after,
+    take_out,
+)
 from pool_sim_ros.physics.event_driven.resolve import collide, log_motion
 from pool_sim_ros.physics.event_driven.state import State
 from pool_sim_ros.physics.jit import NONE, inlined
-from pool_sim_ros.physics.log import N_EVENTS, log_event
+from pool_sim_ros.physics.log import N_EVENTS, POCKETED, log_event
 from pool_sim_ros.physics.motion import (
     RESTS,
+    catch,
     end_phase,
+    give_spin,
+    has_phases,
     position_at,
+    rest_begins,
     runs_away,
     set_off,
+    shown_at,
     velocity_at,
 )
 from pool_sim_ros.physics.outcomes import PLAYED, RUNS_AWAY, TOO_MANY_EVENTS
@@ -58,6 +75,8 @@ def run(state: State, until: float, most: float, max_events: int) -> int:
             predict(state, a, NONE, now)
         elif b == PHASE_END:
             stop(state, a, now)
+        elif b < 0 and is_pocket(state.table.boundary, b):
+            pocket(state, a, b, now)
         else:
             predict_after(state, collide(state, a, b, now), now)
         if log.counts[N_EVENTS] > n_events:
@@ -66,9 +85,14 @@ def run(state: State, until: float, most: float, max_events: int) -> int:
 
 
 @inlined
-def strike(state: State, velocities: NDArray[np.float64]) -> float:
-    """Give the first balls their velocities and find all next events; returns `most_energy`."""
+def strike(state: State, velocities: NDArray[np.float64], spins: NDArray[np.float64]) -> float:
+    """Give the first balls their velocities and find all next events; returns `most_energy`.
+
+    `spins`, (k, 3) in rad/s, are those of the first k balls.
+    """
     balls, table = state.balls, state.table
+    for i in range(len(spins)):
+        give_spin(balls[i], table, spins[i, 0], spins[i, 1], spins[i, 2])
     for i in range(len(velocities)):
         set_off(balls[i], table, velocities[i, 0], velocities[i, 1])
         note_motion(state.grid.few, balls, i)
@@ -98,7 +122,28 @@ def stop(state: State, a: int, now: float) -> None:
     kind = end_phase(ball, state.table, now)
     log_event(state.log, now, kind, (a, -1), (ball.x, ball.y), (0.0, 0.0), 0.0)
     log_motion(state, a, now)
+    if has_phases(state.table) and ball.phase != RESTS:
+        # The same path goes on: whoever is about to meet this ball need not know.
+        ball.next_contact_time = np.inf
+        predict(state, a, NONE, now)
+        return
     lay_down(state, a, now)
+
+
+@inlined
+def pocket(state: State, a: int, partner: int, now: float) -> None:
+    """Let a ball fall into a pocket."""
+    ball, boundary = state.balls[a], state.table.boundary
+    number = pocket_of_partner(boundary, partner)
+    velocity = velocity_at(ball, state.table, now)
+    x, y = position_at(ball, state.table, now)
+    centre = pocket_centre(boundary, number)
+    normal = contact_normal(centre[0] - x, centre[1] - y)
+    speed = np.sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1])
+    log_event(state.log, now, POCKETED, (a, number), (x, y), normal, speed)
+    catch(ball, state.table, number, now)
+    log_motion(state, a, now)
+    take_out(state, a)
 
 
 @inlined
@@ -123,7 +168,10 @@ def finish(
             positions[i, 0], positions[i, 1] = position_at(ball, table, until)
             velocities[i, 0], velocities[i, 1] = velocity_at(ball, table, until)
         else:
-            duration = max(duration, ball.since)
-            positions[i, 0], positions[i, 1] = ball.x, ball.y
+            rests = rest_begins(ball, table)
+            duration = max(duration, rests)
+            # It may spin in place still.
+            complete &= rests <= until
+            positions[i, 0], positions[i, 1] = shown_at(ball, table)
             velocities[i, 0], velocities[i, 1] = 0.0, 0.0
     return (duration if complete else until), complete, lost

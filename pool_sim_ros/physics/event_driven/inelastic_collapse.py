@@ -14,10 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.contacts import restitution
-from pool_sim_ros.physics.jit import Record, inlined
+from pool_sim_ros.physics.jit import Record, chosen_by, inlined, register
+from pool_sim_ros.physics.motion import BallTable, DiscTable
 from pool_sim_ros.physics.tolerances import (
     COLLAPSE_GROWTH,
     LAST_ROUND,
+    LEAST_PARTING,
     MAX_PRESSES,
     MAX_REPEATS,
     MAX_ROUNDS,
@@ -79,9 +81,26 @@ def least_when_pressed(presses: int) -> float:
 
 
 @inlined
+def kept_counts(balls: NDArray[np.void], a: int, b: int) -> tuple[int, int]:
+    """Return the larger ones of the counts that `keep_counts` keeps in a ball and its partner."""
+    if b < 0:
+        return balls[a].repeats, balls[a].presses
+    return max(balls[a].repeats, balls[b].repeats), max(balls[a].presses, balls[b].presses)
+
+
+@inlined
+def keep_counts(balls: NDArray[np.void], a: int, b: int, repeats: int, presses: int) -> None:
+    """Keep how often a contact was weak, where it was."""
+    if repeats >= 0:
+        balls[a].repeats, balls[a].presses = repeats, presses
+        if b >= 0:
+            balls[b].repeats, balls[b].presses = repeats, presses
+
+
+@chosen_by('table')
 def separation_speed(
-    balls: NDArray[np.void],
     table: Any,
+    balls: NDArray[np.void],
     a: int,
     b: int,
     speeds: tuple[float, float],
@@ -91,8 +110,9 @@ def separation_speed(
 
     Parameters
     ----------
-    balls : ndarray
     table : named tuple
+        Its type chooses the rule.
+    balls : ndarray
     a, b : int
         A ball, and a ball or a cushion.
     speeds : tuple of float
@@ -104,9 +124,20 @@ def separation_speed(
     -------
     speed : float
     repeats, presses : int
-        Of a weak contact of balls, to be kept in both: how many follow each other at once, and how
+        Of a weak contact, to be kept in both balls: how many follow each other at once, and how
         many over a while. -1 for any other contact.
     """
+    raise NotImplementedError
+
+
+def disc_separation(
+    table: DiscTable,
+    balls: NDArray[np.void],
+    a: int,
+    b: int,
+    speeds: tuple[float, float],
+    now: float,
+) -> tuple[float, int, int]:
     closing = max(speeds[0], 0.0)
     if b < 0:
         again = closing <= V_MIN and now - balls[a].last_contact_time < REPEAT_WINDOW
@@ -133,9 +164,31 @@ def separation_speed(
     return max(parting, least), repeats, presses
 
 
-@inlined
-def keep_counts(balls: NDArray[np.void], a: int, b: int, repeats: int, presses: int) -> None:
-    """Keep how often a contact was weak, where it was."""
-    if repeats >= 0:
-        balls[a].repeats = balls[b].repeats = repeats
-        balls[a].presses = balls[b].presses = presses
+def ball_separation(
+    table: BallTable,
+    balls: NDArray[np.void],
+    a: int,
+    b: int,
+    speeds: tuple[float, float],
+    now: float,
+) -> tuple[float, int, int]:
+    # Balls that roll on in contact meet again and again, as does one that its spin presses to a
+    # cushion: more slowly than discs do, which have no such push.
+    closing = max(speeds[0], 0.0)
+    repeats, last_contact_time = balls[a].repeats, balls[a].last_contact_time
+    if b < 0:
+        parting = table.e_ball_cushion * closing
+    else:
+        parting = restitution(table, balls[a].is_cue, balls[b].is_cue) * closing
+        repeats = max(repeats, balls[b].repeats)
+        last_contact_time = max(last_contact_time, balls[b].last_contact_time)
+    if closing > LEAST_PARTING:
+        return parting, -1, -1
+    again = now - last_contact_time < PRESS_WINDOW
+    repeats = min(repeats + 1, MAX_REPEATS) if again else 0
+    least = min(LEAST_PARTING, V_ROUNDING * COLLAPSE_GROWTH**repeats)
+    return max(parting, least), repeats, 0
+
+
+register(separation_speed, DiscTable, disc_separation)
+register(separation_speed, BallTable, ball_separation)

@@ -10,6 +10,7 @@ from pool_sim_ros.physics.event_driven.cell_grid import fill, has_few, neighbour
 from pool_sim_ros.physics.event_driven.few_balls import RADIUS, X, Y, put_at_rest
 from pool_sim_ros.physics.event_driven.state import Start, State
 from pool_sim_ros.physics.jit import inlined, kernel
+from pool_sim_ros.physics.motion import in_play, lie_at
 from pool_sim_ros.physics.tolerances import OVERLAP
 
 
@@ -20,8 +21,8 @@ def place(state: State, start: Start, positions: NDArray[np.float64]) -> bool:
     near = 0
     for i in range(len(balls)):
         x, y = positions[i, 0], positions[i, 1]
-        balls[i].x, balls[i].y = x, y
-        put_at_rest(grid.few, i, x, y)
+        lie_at(balls[i], state.table, x, y)
+        put_at_rest(grid.few, i, balls[i].x, balls[i].y)
         dx, dy = x - start.balls[i].x, y - start.balls[i].y
         near += dx * dx + dy * dy <= start.clearance_squared
     if has_few(grid):
@@ -38,7 +39,9 @@ def any_outside(state: State) -> bool:
     """Return whether any ball is beyond a cushion by more than OVERLAP, or nowhere."""
     balls, boundary = state.balls, state.table.boundary
     for i in range(len(balls)):
-        if is_outside(boundary, balls[i].x, balls[i].y, balls[i].radius, OVERLAP):
+        if in_play(balls[i], state.table) and is_outside(
+            boundary, balls[i].x, balls[i].y, balls[i].radius, OVERLAP
+        ):
             return True
     return False
 

@@ -24,7 +24,7 @@ EVENTS_A_SHOT = 32
 def play_parts(
     table: Table,
     at_rest: NDArray[np.void],
-    shots: tuple[NDArray[np.float64], NDArray[np.float64]],
+    shots: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     limits: tuple[float, int],
     ends: Ends,
     parts: Iterator[slice],
@@ -40,7 +40,7 @@ def play_parts(
     at_rest : ndarray
         The kernels' records of the balls where they start.
     shots : tuple of ndarray
-        Velocities and layouts, as `play_some` takes them.
+        Velocities, spins and layouts, as `play_some` takes them.
     limits : tuple
         End of the clock, s, and most events.
     ends : Ends
@@ -53,7 +53,7 @@ def play_parts(
         Called with the number of shots of each part that was played.
     """
     n = len(table.balls)
-    log = new_log(0 if store is None else FIRST_ROOM + n, 0)
+    log = new_log(0 if store is None else FIRST_ROOM + n, 0, table.segment_type)
     if shared or at_rest is not table.balls_at_rest:
         state = new_state(table.for_kernels, at_rest, log)
         start = start_of(state)
@@ -64,7 +64,7 @@ def play_parts(
         state = own_lines(state)
     final_velocities = np.empty((n, 2))
     for part in parts:
-        velocities, layouts = (array[part] for array in shots)
+        velocities, spins, layouts = (array[part] for array in shots)
         own = ends.part(part)
         count, done, filled = len(velocities), 0, 0
         room = NO_EVENTS if store is None else store.room(EVENTS_A_SHOT * count)
@@ -74,7 +74,7 @@ def play_parts(
                 types_of(state),
                 state,
                 start,
-                (velocities, layouts),
+                (velocities, spins, layouts),
                 (done, filled),
                 limits,
                 (own, final_velocities, room),
@@ -82,7 +82,7 @@ def play_parts(
             if done < count:
                 needed = int(state.log.counts[N_EVENTS])
                 if needed > len(state.log.events):
-                    state = state._replace(log=new_log(2 * needed, 0))
+                    state = state._replace(log=new_log(2 * needed, 0, table.segment_type))
                 else:
                     room = np.concatenate([room[:filled], np.empty(len(room) + needed, EVENT)])
         if store is not None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.boundary import PHASE_END
+from pool_sim_ros.physics.contact_time import time_to_moving_ball
 from pool_sim_ros.physics.event_driven.cell_grid import (
     all_moving,
     cell_edges,
@@ -20,7 +21,6 @@ from pool_sim_ros.physics.event_driven.cell_grid import (
     move_on,
     neighbours,
 )
-from pool_sim_ros.physics.event_driven.contact_time import time_to_moving_ball
 from pool_sim_ros.physics.event_driven.event_queue import reschedule
 from pool_sim_ros.physics.event_driven.few_balls import n_moving, note_motion
 from pool_sim_ros.physics.event_driven.state import State
@@ -174,13 +174,20 @@ def meet_moving(state: State, i: int, j: int, path: Any, now: float) -> None:
 
 
 @inlined
+def take_out(state: State, j: int) -> None:
+    """Take ball `j`, which moves no more, out of the queue."""
+    other = state.balls[j]
+    other.next_contact_time = other.cell_exit_time = np.inf
+    note_motion(state.grid.few, state.balls, j)
+    reschedule(state.queue, j, np.inf)
+
+
+@inlined
 def lay_down(state: State, j: int, now: float) -> None:
     """Take ball `j`, which has come to rest, out of the queue; tell the moving balls near it."""
     table, balls, grid = state.table, state.balls, state.grid
     other = balls[j]
-    other.next_contact_time = other.cell_exit_time = np.inf
-    note_motion(grid.few, balls, j)
-    reschedule(state.queue, j, np.inf)
+    take_out(state, j)
     others, count = all_moving(balls, grid, j)
     for m in range(count):
         i = others[m]

@@ -2,18 +2,8 @@
 
 from __future__ import annotations
 
-from pool_sim_ros.physics.boundary import (
-    cushion_normal,
-    cushion_of_partner,
-    from_cushion_axes,
-    to_cushion_axes,
-    touches_cushion,
-)
-from pool_sim_ros.physics.contacts import (
-    collide_disc_with_cushion,
-    collide_discs,
-    contact_normal,
-)
+from pool_sim_ros.physics.boundary import cushion_normal, cushion_of_partner, touches_cushion
+from pool_sim_ros.physics.contacts import bounce, collide_pair, contact_normal
 from pool_sim_ros.physics.event_driven.cell_grid import all_moving, has_few
 from pool_sim_ros.physics.event_driven.contact_group import (
     ContactGroup,
@@ -26,6 +16,7 @@ from pool_sim_ros.physics.event_driven.inelastic_collapse import (
     count_round,
     is_pressed,
     keep_counts,
+    kept_counts,
     rounds_at,
     rounds_of,
     separation_speed,
@@ -34,7 +25,16 @@ from pool_sim_ros.physics.event_driven.simultaneous import move_as_one, resolve
 from pool_sim_ros.physics.event_driven.state import State
 from pool_sim_ros.physics.jit import inlined, kernel
 from pool_sim_ros.physics.log import BALL_BALL, CUSHION, log_event, log_hit, log_segment
-from pool_sim_ros.physics.motion import RESTS, acceleration, position_at, set_off, velocity_at
+from pool_sim_ros.physics.motion import (
+    RESTS,
+    acceleration,
+    advance,
+    log_spin,
+    position_at,
+    set_off,
+    shown_at,
+    velocity_at,
+)
 from pool_sim_ros.physics.tolerances import (
     CLOSING_ROUNDING,
     LAST_ROUND,
@@ -105,16 +105,6 @@ def is_touched(state: State, i: int, but: int, now: float) -> bool:
 
 
 @inlined
-def bring_to(state: State, i: int, now: float) -> tuple[float, float]:
-    """Begin the motion of ball `i` anew at `now`; return its velocity, m/s."""
-    table, ball = state.table, state.balls[i]
-    velocity = velocity_at(ball, table, now)
-    ball.x, ball.y = position_at(ball, table, now)
-    ball.since = now
-    return velocity
-
-
-@inlined
 def leave_contact(state: State, i: int, velocity: tuple[float, float], now: float) -> None:
     """Set ball `i` off after a contact."""
     ball = state.balls[i]
@@ -126,27 +116,28 @@ def leave_contact(state: State, i: int, velocity: tuple[float, float], now: floa
 @inlined
 def log_motion(state: State, i: int, now: float) -> None:
     """Write down how ball `i` moves from now on, when its motion has begun."""
-    table, ball = state.table, state.balls[i]
-    velocity, slowing = velocity_at(ball, table, now), acceleration(ball, table)
-    log_segment(state.log, i, now, (ball.x, ball.y), velocity, slowing)
+    table, ball, log = state.table, state.balls[i], state.log
+    velocity, change = velocity_at(ball, table, now), acceleration(ball, table)
+    number = log_segment(log, i, now, shown_at(ball, table), velocity, change)
+    if number >= 0:
+        log_spin(log.segments[number], ball, table)
 
 
 @inlined
 def hit_ball(state: State, a: int, b: int, now: float) -> None:
     """Resolve a contact of two balls, `a` below `b`, that nothing else touches."""
     table, balls = state.table, state.balls
-    va = bring_to(state, a, now)
-    vb = bring_to(state, b, now)
+    va = advance(balls[a], table, now)
+    vb = advance(balls[b], table, now)
     normal = contact_normal(balls[b].x - balls[a].x, balls[b].y - balls[a].y)
     nx, ny = normal
     closing = (va[0] - vb[0]) * nx + (va[1] - vb[1]) * ny
     slower = min(va[0] * va[0] + va[1] * va[1], vb[0] * vb[0] + vb[1] * vb[1])
-    parting, repeats, presses = separation_speed(balls, table, a, b, (closing, slower), now)
+    parting, repeats, presses = separation_speed(table, balls, a, b, (closing, slower), now)
     keep_counts(balls, a, b, repeats, presses)
     # A contact that rounding has part already pushes nothing.
     if closing + parting > 0.0:
-        inverse_masses = balls[a].inverse_mass, balls[b].inverse_mass
-        va, vb = collide_discs(table, va, vb, normal, inverse_masses, parting)
+        va, vb = collide_pair(table, balls[a], balls[b], va, vb, normal, parting)
         log_contact(state, a, b, normal, closing, now)
     leave_contact(state, a, va, now)
     leave_contact(state, b, vb, now)
@@ -156,17 +147,16 @@ def hit_ball(state: State, a: int, b: int, now: float) -> None:
 def hit_cushion(state: State, a: int, partner: int, now: float) -> None:
     """Resolve a contact of a ball that touches nothing but one cushion."""
     table, balls = state.table, state.balls
-    boundary, cushion = table.boundary, cushion_of_partner(partner)
-    velocity = bring_to(state, a, now)
-    normal = cushion_normal(boundary, cushion, balls[a].x, balls[a].y)
+    cushion = cushion_of_partner(partner)
+    velocity = advance(balls[a], table, now)
+    normal = cushion_normal(table.boundary, cushion, balls[a].x, balls[a].y)
     closing = velocity[0] * normal[0] + velocity[1] * normal[1]
-    parting, _, _ = separation_speed(balls, table, a, partner, (closing, 0.0), now)
-    if closing > 0.0:
+    parting, repeats, presses = separation_speed(table, balls, a, partner, (closing, 0.0), now)
+    keep_counts(balls, a, partner, repeats, presses)
+    if closing + parting > 0.0:
         if closing > CLOSING_ROUNDING or parting > 0.0:
             log_contact(state, a, partner, normal, closing, now)
-        along, across = to_cushion_axes(boundary, cushion, normal, velocity)
-        along, across = collide_disc_with_cushion(table, along, across, parting)
-        velocity = from_cushion_axes(boundary, cushion, normal, (along, across))
+        velocity = bounce(table, balls[a], cushion, normal, velocity, parting)
     leave_contact(state, a, velocity, now)
 
 
@@ -200,12 +190,12 @@ def hit_group(state: State, counts: tuple[int, int], rounds: int, now: float) ->
     count, members = counts
     balls, group = state.balls, state.group
     want_separation(state, count, rounds, now)
+    for m in range(members):
+        advance(balls[group.members[m]], state.table, now)
     if rounds > LAST_ROUND:
         move_as_one(balls, group, count, members)
     else:
         resolve(state, count, members)
-    for m in range(members):
-        bring_to(state, group.members[m], now)
     for c in range(count):
         one = group.contacts[c]
         if one.impulse > 0.0:
@@ -231,7 +221,7 @@ def want_separation(state: State, count: int, rounds: int, now: float) -> None:
     for c in range(count):
         one = group.contacts[c]
         speeds = one.closing, slower_of(group, one.a, one.b)
-        speed, repeats, presses = separation_speed(balls, table, one.a, one.b, speeds, now)
+        speed, repeats, presses = separation_speed(table, balls, one.a, one.b, speeds, now)
         if rounds > MAX_ROUNDS and one.closing < -CLOSING_ROUNDING:
             # It parts; the others must not press it together again.
             speed = 0.0
@@ -245,8 +235,8 @@ def want_separation(state: State, count: int, rounds: int, now: float) -> None:
     for c in range(count):
         one = group.contacts[c]
         if one.repeats >= 0:
-            repeats = max(one.repeats, max(balls[one.a].repeats, balls[one.b].repeats))
-            presses = max(one.presses, max(balls[one.a].presses, balls[one.b].presses))
+            repeats, presses = kept_counts(balls, one.a, one.b)
+            repeats, presses = max(repeats, one.repeats), max(presses, one.presses)
             keep_counts(balls, one.a, one.b, repeats, presses)
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.contacts import rub_balls, rub_cushion
 from pool_sim_ros.physics.event_driven.contact_group import ContactGroup, closing_speed
+from pool_sim_ros.physics.event_driven.group_friction import rub_group
 from pool_sim_ros.physics.event_driven.linear_complementarity import (
     FOUND,
     GIVEN,
@@ -50,9 +50,7 @@ def resolve(state: State, count: int, members: int) -> None:
             group.by_ball[contact.a].pushes += 1.0
             if contact.b >= 0:
                 group.by_ball[contact.b].pushes += 1.0
-    for c in range(count):
-        if group.contacts[c].impulse > 0.0:
-            rub(state, group.contacts[c])
+    rub_group(state.table, balls, group, count, members)
 
 
 @kernel
@@ -179,55 +177,6 @@ def push(balls: NDArray[np.void], group: ContactGroup, contact: Record, impulse:
         other = group.by_ball[b]
         other.vx += impulse * contact.nx * balls[b].inverse_mass
         other.vy += impulse * contact.ny * balls[b].inverse_mass
-
-
-@kernel
-def rub(state: State, contact: Record) -> None:
-    """Apply the friction that goes with a contact's normal impulse.
-
-    `coulomb`: from the velocities that the normal impulses left, each ball's mass divided by the
-    number of contacts that push it, so that no energy is gained. `report`: one contact after
-    the other, as the listing does it.
-    """
-    table, balls, group = state.table, state.balls, state.group
-    a, b, nx, ny = contact.a, contact.b, contact.nx, contact.ny
-    inverse_a = balls[a].inverse_mass
-    tangential_a = tangential_velocity(group, a, nx, ny, table.coulomb)
-    if b < 0:
-        change = contact.impulse * inverse_a
-        pushes = group.by_ball[a].pushes
-        after = rub_cushion(tangential_a, change, table.mu_ball_cushion, pushes)
-        turn(group, a, nx, ny, after - tangential_a)
-        return
-    tangential_b = tangential_velocity(group, b, nx, ny, table.coulomb)
-    after_a, after_b = rub_balls(
-        table,
-        (tangential_a, tangential_b),
-        contact.impulse,
-        (inverse_a, balls[b].inverse_mass),
-        (group.by_ball[a].pushes, group.by_ball[b].pushes),
-    )
-    turn(group, a, nx, ny, after_a - tangential_a)
-    turn(group, b, nx, ny, after_b - tangential_b)
-
-
-@kernel
-def tangential_velocity(
-    group: ContactGroup, ball: int, nx: float, ny: float, before: bool
-) -> float:
-    """Return a member's velocity along the tangent of (nx, ny), `before` friction or now, m/s."""
-    member = group.by_ball[ball]
-    if before:
-        return member.before_y * nx - member.before_x * ny
-    return member.vy * nx - member.vx * ny
-
-
-@kernel
-def turn(group: ContactGroup, ball: int, nx: float, ny: float, change: float) -> None:
-    """Change a member's velocity by so much along the tangent of (nx, ny), m/s."""
-    member = group.by_ball[ball]
-    member.vx -= change * ny
-    member.vy += change * nx
 
 
 @kernel

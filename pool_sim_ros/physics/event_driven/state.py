@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.boundary import cushion_gap, n_cushions
+from pool_sim_ros.physics.boundary import cushion_gap, distance_to_mouths, n_cushions
 from pool_sim_ros.physics.event_driven.cell_grid import CellGrid, fill, has_few, new_grid
 from pool_sim_ros.physics.event_driven.contact_group import ContactGroup, new_group
 from pool_sim_ros.physics.event_driven.event_queue import first, new_queue
@@ -64,10 +64,15 @@ def clearance(balls: NDArray[np.void], boundary: Any) -> float:
     least = np.inf
     for i in range(len(balls)):
         one = balls[i]
+        if one.x == np.inf:  # in a pocket
+            continue
+        least = min(least, distance_to_mouths(boundary, one.x, one.y))
         for cushion in range(n_cushions(boundary)):
             least = min(least, cushion_gap(boundary, cushion, one.x, one.y, one.radius))
         for k in range(i):
             other = balls[k]
+            if other.x == np.inf:
+                continue
             dx, dy = other.x - one.x, other.y - one.y
             gap = np.sqrt(dx * dx + dy * dy) - one.radius - other.radius
             least = min(least, 0.5 * gap)

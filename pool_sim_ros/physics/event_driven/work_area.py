@@ -11,7 +11,7 @@ from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_some
 from pool_sim_ros.physics.event_driven.state import copied, new_state, start_of, types_of
 from pool_sim_ros.physics.jit import call_directly
 from pool_sim_ros.physics.log import EVENT, new_log
-from pool_sim_ros.physics.outcomes import Ends, Shot
+from pool_sim_ros.physics.outcomes import NO_POCKETED, Ends, Shot
 from pool_sim_ros.physics.table import Table
 
 NO_EVENTS = np.empty(0, EVENT)
@@ -33,16 +33,19 @@ class WorkArea:
     def __init__(self, table: Table) -> None:
         self.table = table
         n = len(table.balls)
-        log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n)
+        log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n, table.segment_type)
         self.state = new_state(table.for_kernels, table.balls_at_rest, log)
         self.start = start_of(self.state)
         self._duration, self._failed = np.empty(1), np.empty(1, np.int8)
         self._numbers = np.empty(1, np.int64), np.empty(1, np.int64)
         self._types = types_of(self.state)
+        self._pockets = len(table.pockets) > 0
+        self._segment_type = table.segment_type
 
     def play(
         self,
         velocities: NDArray[np.float64],
+        spins: NDArray[np.float64],
         layout: NDArray[np.float64] | None,
         limits: tuple[float, int],
     ) -> Shot:
@@ -52,6 +55,8 @@ class WorkArea:
         ----------
         velocities : ndarray of shape (n or 1, 2)
             m/s.
+        spins : ndarray of shape (n, 1 or 0, 3)
+            rad/s.
         layout : ndarray of shape (n, 2)
             m; None for the balls' own places.
         limits : tuple of float and int
@@ -60,8 +65,13 @@ class WorkArea:
         layouts = NO_LAYOUT if layout is None else layout[np.newaxis]
         n = len(self.table.balls)
         finals, final_velocities = np.empty((1, n, 2)), np.empty((n, 2))
-        ends = Ends(finals, self._duration, *self._numbers, self._failed)
-        shots, room = (velocities[np.newaxis], layouts), (ends, final_velocities, NO_EVENTS)
+        pocketed = np.empty((1, n), np.int64) if self._pockets else NO_POCKETED
+        event_counts, first_hits = self._numbers
+        ends = Ends(finals, self._duration, event_counts, pocketed, first_hits, self._failed)
+        shots, room = (
+            (velocities[np.newaxis], spins[np.newaxis], layouts),
+            (ends, final_velocities, NO_EVENTS),
+        )
         while True:
             _, _, complete = call_directly(
                 play_some, self._types, self.state, self.start, shots, NONE_PLAYED, limits, room
@@ -70,7 +80,9 @@ class WorkArea:
             n_events, n_segments, first_hit = log.counts.tolist()
             if n_events <= len(log.events) and n_segments <= len(log.segments):
                 break
-            self.state = self.state._replace(log=new_log(2 * n_events, 2 * n_segments))
+            self.state = self.state._replace(
+                log=new_log(2 * n_events, 2 * n_segments, self._segment_type)
+            )
         return Shot(
             self._failed.item(),
             self._duration.item(),
@@ -79,6 +91,7 @@ class WorkArea:
             final_velocities,
             copied(log.events[:n_events]),
             copied(log.segments[:n_segments]),
+            pocketed[0] if self._pockets else NO_POCKETED,
             n_events,
             first_hit,
         )

@@ -1,183 +1,108 @@
 """What a ball does between two contacts.
 
-The engine asks everything about a motion through the functions below. The type of `table`, the
-named tuple that describes the table to the kernels, chooses the motion when they are compiled.
-There is one: `disc`, the report's, which loses speed along its own line. Another one brings a
-record of its balls, a named tuple for its tables, and these functions.
-
-A motion has phases, in each of which the acceleration is constant. A ball at rest is in phase
-`RESTS`. A *path* is what a moving ball does from some instant until its phase ends.
+`seam` has what the engine asks of a motion. There are two: `disc`, the report's, loses speed along
+its own line; `ball` slides, rolls and spins. Each brings a record of its balls, a named tuple for
+its tables, and the functions of the seam.
 """
 
-from __future__ import annotations
-
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
-
-from pool_sim_ros.physics.jit import chosen_by, register
-from pool_sim_ros.physics.motion import disc
-from pool_sim_ros.physics.motion.disc import DISC, DiscTable, balls_at_rest
-from pool_sim_ros.physics.motion.phase import MOVES, RESTS
-from pool_sim_ros.physics.motion.relative import RelativeMotion, after
+from pool_sim_ros.physics.contact_time import RelativeMotion, after
+from pool_sim_ros.physics.jit import register
+from pool_sim_ros.physics.motion import ball, disc, seam
+from pool_sim_ros.physics.motion.ball import BALL, BallTable
+from pool_sim_ros.physics.motion.disc import DISC, DiscTable
+from pool_sim_ros.physics.motion.phase import MOVES, RESTS, ROLLS, SLIDES
+from pool_sim_ros.physics.motion.seam import (
+    acceleration,
+    advance,
+    catch,
+    end_phase,
+    first_resting_ball,
+    first_resting_of,
+    give_spin,
+    has_phases,
+    in_play,
+    lie_at,
+    log_spin,
+    path_from,
+    phase_end_time,
+    pocket_of,
+    position_at,
+    relative_motion,
+    rest_begins,
+    runs_away,
+    set_off,
+    shown_at,
+    time_to_boundary,
+    time_to_cell_edge,
+    time_to_resting_ball,
+    velocity_at,
+)
 
 __all__ = [
+    'BALL',
     'DISC',
     'MOVES',
     'RESTS',
+    'ROLLS',
+    'SLIDES',
+    'BallTable',
     'DiscTable',
     'RelativeMotion',
     'acceleration',
+    'advance',
     'after',
-    'balls_at_rest',
+    'catch',
     'end_phase',
     'first_resting_ball',
     'first_resting_of',
+    'give_spin',
+    'has_phases',
+    'in_play',
+    'lie_at',
+    'log_spin',
     'path_from',
     'phase_end_time',
+    'pocket_of',
     'position_at',
     'relative_motion',
+    'rest_begins',
     'runs_away',
     'set_off',
+    'shown_at',
     'time_to_boundary',
     'time_to_cell_edge',
     'time_to_resting_ball',
     'velocity_at',
 ]
 
+CHOICES = (
+    'position_at',
+    'velocity_at',
+    'acceleration',
+    'set_off',
+    'phase_end_time',
+    'end_phase',
+    'runs_away',
+    'path_from',
+    'time_to_boundary',
+    'time_to_cell_edge',
+    'first_resting_ball',
+    'first_resting_of',
+    'time_to_resting_ball',
+    'relative_motion',
+    'advance',
+    'has_phases',
+    'rest_begins',
+    'give_spin',
+    'log_spin',
+    'lie_at',
+    'in_play',
+    'catch',
+    'pocket_of',
+    'shown_at',
+)
+"""The functions of `seam` that each motion implements."""
 
-@chosen_by('table')
-def position_at(ball: Any, table: Any, t: float) -> tuple[float, float]:
-    """Return where a ball is at `t`, m; its phase must last until then."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def velocity_at(ball: Any, table: Any, t: float) -> tuple[float, float]:
-    """Return the velocity of a ball at `t`, m/s; its phase must last until then."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def acceleration(ball: Any, table: Any) -> tuple[float, float]:
-    """Return the acceleration of a ball in its present phase, m/s^2."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def set_off(ball: Any, table: Any, vx: float, vy: float) -> None:
-    """Begin a new motion at (vx, vy) in m/s, from where the ball is."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def phase_end_time(ball: Any, table: Any) -> float:
-    """Return when the present phase of a moving ball ends if it meets nothing, s."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def end_phase(ball: Any, table: Any, now: float) -> int:
-    """Bring a ball to the end of its phase and begin the next one; return the kind of event."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def runs_away(ball: Any, table: Any, most: float) -> bool:
-    """Return whether a ball has more than `most`, twice its kinetic energy in J."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def path_from(ball: Any, table: Any, now: float) -> Any:
-    """Return the path of a moving ball from `now` on: a named tuple of the motion."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def time_to_boundary(path: Any, table: Any, ball: Any) -> tuple[float, int]:
-    """Return the seconds until a ball touches the boundary, and its partner there.
-
-    That is inf and PHASE_END where its phase ends before.
-    """
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def time_to_cell_edge(
-    path: Any, table: Any, x_low: float, x_high: float, y_low: float, y_high: float
-) -> tuple[float, int, int]:
-    """Return the seconds until a ball's centre leaves its cell, and the step to the next one.
-
-    The edges are in m, infinite where there is none. The time is inf where the phase ends before.
-    The step is (1, 0), (-1, 0), (0, 1) or (0, -1), in cells.
-    """
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def first_resting_ball(
-    path: Any, table: Any, radius: float, lasts: float, rows: NDArray[np.float64]
-) -> tuple[float, int]:
-    """Return the seconds until a ball touches one at rest, and which, on a table with few balls.
-
-    Parameters
-    ----------
-    path : named tuple
-    table : named tuple
-    radius : float
-        Of the ball, m.
-    lasts : float
-        Later contacts do not count, s.
-    rows : ndarray of shape (4, n)
-        Where the others rest, x and y, NaN for those that do not; their radii; room, m.
-
-    Returns
-    -------
-    tuple of float and int
-        The time is of no use where there is none, which is ball -1.
-    """
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def first_resting_of(
-    path: Any, table: Any, radius: float, lasts: float, balls: Any, listed: Any, count: int
-) -> tuple[float, int]:
-    """Return as `first_resting_ball`, for the first `count` numbers of balls in `listed`."""
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def time_to_resting_ball(path: Any, table: Any, dx: float, dy: float, touch: float) -> float:
-    """Return the seconds until a moving ball touches one at rest at (dx, dy) from it; inf: never.
-
-    `touch` is the sum of the radii, m.
-    """
-    raise NotImplementedError
-
-
-@chosen_by('table')
-def relative_motion(path: Any, table: Any, other: Any) -> RelativeMotion:
-    """Return how the ball on path `other` moves relative to that on `path`."""
-    raise NotImplementedError
-
-
-for _choice, _implementation in (
-    (position_at, disc.position_at),
-    (velocity_at, disc.velocity_at),
-    (acceleration, disc.acceleration),
-    (set_off, disc.set_off),
-    (phase_end_time, disc.phase_end_time),
-    (end_phase, disc.end_phase),
-    (runs_away, disc.runs_away),
-    (path_from, disc.path_from),
-    (time_to_boundary, disc.time_to_boundary),
-    (time_to_cell_edge, disc.time_to_cell_edge),
-    (first_resting_ball, disc.first_resting_ball),
-    (first_resting_of, disc.first_resting_of),
-    (time_to_resting_ball, disc.time_to_resting_ball),
-    (relative_motion, disc.relative_motion),
-):
-    register(_choice, DiscTable, _implementation)
+for _name in CHOICES:
+    register(getattr(seam, _name), DiscTable, getattr(disc, _name))
+    register(getattr(seam, _name), BallTable, getattr(ball, _name))

@@ -6,16 +6,16 @@ The functions are the implementations of those in `motion`, which say what each 
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.boundary import PHASE_END, Rectangle, distance_to_cushions
-from pool_sim_ros.physics.jit import Record
+from pool_sim_ros.physics.contact_time import RelativeMotion
+from pool_sim_ros.physics.jit import Record, inlined
 from pool_sim_ros.physics.log import STOP
 from pool_sim_ros.physics.motion.phase import MOVES, RESTS
-from pool_sim_ros.physics.motion.relative import RelativeMotion
 from pool_sim_ros.physics.motion.straight_path import (
     StraightPath,
     distance_covered,
@@ -70,18 +70,30 @@ class DiscTable(NamedTuple):
     cue_ball: int  # its number; -1 for none
 
 
+@inlined
+def distance_gone(ball: Record, table: Any, t: float) -> float:
+    """Return how far a disc has gone at `t`, m."""
+    elapsed = t - ball.since
+    return elapsed * (ball.speed - 0.5 * table.deceleration * elapsed)
+
+
+@inlined
+def velocity_now(ball: Record, table: Any, t: float) -> tuple[float, float]:
+    """Return the velocity of a disc at `t`, m/s."""
+    speed = max(ball.speed - table.deceleration * (t - ball.since), 0.0)
+    return ball.ux * speed, ball.uy * speed
+
+
 def position_at(ball: Record, table: DiscTable, t: float) -> tuple[float, float]:
     """Return where a disc is at `t`, m."""
-    elapsed = t - ball.since
-    distance = elapsed * (ball.speed - 0.5 * table.deceleration * elapsed)
+    distance = distance_gone(ball, table, t)
     # At rest that is exactly where it is: its direction is zero.
     return ball.x + ball.ux * distance, ball.y + ball.uy * distance
 
 
 def velocity_at(ball: Record, table: DiscTable, t: float) -> tuple[float, float]:
     """Return the velocity of a disc at `t`, m/s."""
-    speed = max(ball.speed - table.deceleration * (t - ball.since), 0.0)
-    return ball.ux * speed, ball.uy * speed
+    return velocity_now(ball, table, t)
 
 
 def acceleration(ball: Record, table: DiscTable) -> tuple[float, float]:
@@ -228,6 +240,58 @@ def relative_motion(path: StraightPath, table: DiscTable, other: StraightPath) -
         a * (path.ux - other.ux),
         a * (path.uy - other.uy),
     )
+
+
+def advance(ball: Record, table: DiscTable, now: float) -> tuple[float, float]:
+    """Bring a disc to where it is at `now`; its speed is left to `set_off`."""
+    velocity = velocity_now(ball, table, now)
+    distance = distance_gone(ball, table, now)
+    ball.x += ball.ux * distance
+    ball.y += ball.uy * distance
+    ball.since = now
+    return velocity
+
+
+def has_phases(table: DiscTable) -> bool:
+    """Return that a disc rests when its one phase ends."""
+    return False
+
+
+def rest_begins(ball: Record, table: DiscTable) -> float:
+    """Return when a disc came to rest, s: it does not spin."""
+    return ball.since
+
+
+def give_spin(ball: Record, table: DiscTable, wx: float, wy: float, wz: float) -> None:
+    """Leave a disc as it is."""
+
+
+def log_spin(segment: Record, ball: Record, table: DiscTable) -> None:
+    """Write nothing: a disc does not spin."""
+
+
+def lie_at(ball: Record, table: DiscTable, x: float, y: float) -> None:
+    """Put a disc at rest to (x, y), m."""
+    ball.x, ball.y = x, y
+
+
+def in_play(ball: Record, table: DiscTable) -> bool:
+    """Return that a disc always is."""
+    return True
+
+
+def catch(ball: Record, table: DiscTable, pocket: int, now: float) -> None:
+    """Leave a disc as it is: it meets no pocket."""
+
+
+def pocket_of(ball: Record, table: DiscTable) -> int:
+    """Return -1: discs fall into no pockets."""
+    return -1
+
+
+def shown_at(ball: Record, table: DiscTable) -> tuple[float, float]:
+    """Return where a disc is when its motion begins, m."""
+    return ball.x, ball.y
 
 
 def balls_at_rest(

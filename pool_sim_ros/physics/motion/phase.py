@@ -1,4 +1,10 @@
-"""The phases that every motion has."""
+"""The phases of the motions. Each has RESTS; what it is not, moves."""
 
-RESTS, MOVES = 0, 1
-"""At rest until something touches it; in the one phase of motion that a disc has."""
+RESTS = 0
+"""At rest until something touches it; a ball that spins in place too, whom that concerns nobody."""
+
+MOVES = 1
+"""The one phase in which a disc moves."""
+
+SLIDES, ROLLS = 1, 2
+"""The phases in which a ball with spin moves."""

@@ -19,6 +19,7 @@ from pool_sim_ros.physics.log import (
 )
 from pool_sim_ros.physics.outcomes import (
     BAD_LAYOUT,
+    NO_POCKETED,
     PLAYED,
     RUNS_AWAY,
     TOO_MANY_EVENTS,
@@ -90,7 +91,7 @@ def _play(
     if start is layout and is_bad(table, layout):
         nowhere = np.full(start.shape, np.nan)
         nothing = log.events[:0], log.segments[:0]
-        return Shot(BAD_LAYOUT, math.nan, False, nowhere, nowhere, *nothing, 0, -1)
+        return Shot(BAD_LAYOUT, math.nan, False, nowhere, nowhere, *nothing, NO_POCKETED, 0, -1)
     until, max_events = limits
     while True:
         state = new_state(table, start, velocities, step, log)
@@ -113,6 +114,7 @@ def _play(
         log.events[:events],
         # A ball rests within the slice in which it stops: maybe before what is written above it.
         found[np.argsort(found['t'], kind='stable')],
+        NO_POCKETED,
         events,
         first_hit,
     )

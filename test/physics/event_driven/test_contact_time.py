@@ -7,12 +7,12 @@ import numpy as np
 import oracle_roots
 import pytest
 from mpmath import mp, mpf
-
 from pool_sim_ros.physics.event_driven.contact_time import (
     gap_from_below,
     stays_positive,
     time_to_moving_ball,
 )
+
 from pool_sim_ros.physics.motion import RelativeMotion
 
 A = 0.980665

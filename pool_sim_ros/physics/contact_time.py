@@ -7,18 +7,54 @@ acceleration will do.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from pool_sim_ros.physics.jit import inlined
-from pool_sim_ros.physics.motion import RelativeMotion, after
-from pool_sim_ros.physics.tolerances import MAX_STEPS, ROOT_MARGIN, TOUCH_ROUNDING
+from pool_sim_ros.physics.tolerances import (
+    MAX_STEPS,
+    PRESSED,
+    ROOT_MARGIN,
+    TOUCH_ROUNDING,
+    TOUCHING,
+)
+
+
+class RelativeMotion(NamedTuple):
+    """Position in m, velocity in m/s and constant acceleration in m/s^2 of a second ball.
+
+    All are relative to a first one.
+    """
+
+    dx: float
+    dy: float
+    wx: float
+    wy: float
+    gx: float
+    gy: float
+
+
+@inlined
+def after(motion: RelativeMotion, t: float) -> RelativeMotion:
+    """Return the same motion `t` s later."""
+    dx, dy, wx, wy, gx, gy = motion
+    return RelativeMotion(
+        dx + t * (wx + 0.5 * t * gx),
+        dy + t * (wy + 0.5 * t * gy),
+        wx + t * gx,
+        wy + t * gy,
+        gx,
+        gy,
+    )
 
 
 @inlined
 def first_root(gap: float, closing: float, opening: float) -> float:
     """Return the smallest root >= 0 of ``gap - closing t + opening t^2 / 2``; inf for none.
 
-    `gap` must not be negative.
+    `gap` must not be negative, unless `closing` and `opening` are: then it is the root at which it
+    becomes negative again.
     """
     if gap == 0.0 and closing > 0.0:
         return 0.0
@@ -31,6 +67,34 @@ def first_root(gap: float, closing: float, opening: float) -> float:
     if closing > 0.0:
         return 2.0 * gap / (closing + root)
     return (closing - root) / opening
+
+
+@inlined
+def time_to_line(gap: float, closing: float, pressing: float, lasts: float) -> float:
+    """Return the first time before `lasts` at which a ball touches a straight line; inf for none.
+
+    Parameters
+    ----------
+    gap : float
+        Between them, m. Where it is below -TOUCHING the ball is beyond the line, and touches it
+        when it comes back after it came out.
+    closing : float
+        Speed towards the line, m/s.
+    pressing : float
+        Acceleration towards it, m/s^2.
+    lasts : float
+        s; finite where `pressing` is not zero.
+    """
+    if gap > -TOUCHING:
+        gap = max(gap, 0.0)
+    if closing <= 0.0:
+        # A ball that lies on the line, and moves along it, is pressed by no more than rounding.
+        if pressing <= 0.0 or lasts * (closing + 0.5 * pressing * lasts) - gap <= PRESSED:
+            return np.inf
+    elif gap < 0.0:
+        return np.inf
+    t = first_root(gap, closing, -pressing)
+    return t if t < lasts else np.inf
 
 
 @inlined

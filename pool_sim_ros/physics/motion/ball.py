@@ -1,0 +1,410 @@
+"""A ball that slides, rolls and spins.
+
+It slides while the point that touches the cloth moves over it, then rolls, then rests; in each
+phase its acceleration is constant. The spin about the vertical axis fades by itself in all of them
+and in place. The functions are the implementations of those in `motion`.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pool_sim_ros.physics.boundary import (
+    pocket_at,
+    pocket_centre,
+    time_to_cushions,
+)
+from pool_sim_ros.physics.contact_time import RelativeMotion, first_root
+from pool_sim_ros.physics.jit import Record, inlined
+from pool_sim_ros.physics.log import ROLL, STOP
+from pool_sim_ros.physics.motion.curved_path import (
+    CurvedPath,
+    first_in_rows,
+    first_of_listed,
+    time_to_place,
+)
+from pool_sim_ros.physics.motion.phase import RESTS, ROLLS, SLIDES
+from pool_sim_ros.physics.motion.straight_path import (
+    StraightPath,
+    distance_covered,
+    distance_to_resting_ball,
+    first_on_path,
+    time_to_cover,
+)
+from pool_sim_ros.physics.tolerances import LONGEST, SHORTEST_PHASE, SLIP_ROUNDING
+
+BALL = np.dtype(
+    [
+        # What others look at when they look for whom they meet: the first cache line.
+        ('x', 'f8'),  # position at `since`, m; infinite for a ball in a pocket
+        ('y', 'f8'),
+        ('vx', 'f8'),  # velocity at `since`, m/s
+        ('vy', 'f8'),
+        ('ax', 'f8'),  # m/s^2
+        ('ay', 'f8'),
+        ('since', 'f8'),  # when this motion began, s
+        ('changes', 'i4'),  # how often its motion has changed
+        ('phase', 'i2'),
+        ('is_cue', 'i2'),
+        # The second one.
+        ('next_contact_time', 'f8'),  # when its next contact or end of phase is due, s; inf: none
+        ('cell_exit_time', 'f8'),  # when it leaves its cell, s; inf for never
+        ('phase_end', 'f8'),  # when it stops to slide, or to roll, s
+        ('radius', 'f8'),
+        ('inverse_mass', 'f8'),
+        ('last_contact_time', 'f8'),  # s
+        ('partner', 'i4'),  # what it meets then: a ball, or as in `boundary`
+        ('partner_changes', 'i4'),  # the partner's `changes` when this was found
+        ('cell_x', 'i4'),
+        ('cell_y', 'i4'),
+        # The third one.
+        ('wx', 'f8'),  # angular velocity at `since`, rad/s
+        ('wy', 'f8'),
+        ('wz', 'f8'),
+        ('previous', 'i4'),  # the ball before it in its cell; -1 for none
+        ('pocket', 'i4'),  # in which it is; -1 for none
+        ('repeats', 'i2'),  # weak contacts in quick succession, up to now
+        ('presses', 'i2'),  # the same over a while
+        ('rounds', 'i4'),  # contacts in the rattle that `last_contact_time` belongs to
+    ],
+    align=True,
+)
+"""The state of one ball in the event-driven engine: three cache lines."""
+
+
+class BallTable(NamedTuple):
+    """What the kernels know of a table on which balls spin; SI units."""
+
+    boundary: Any
+    slide: float  # deceleration of a ball that slides, m/s^2
+    roll: float  # of one that rolls, m/s^2
+    spin: float  # angular deceleration of the spin about the vertical axis, rad/s^2
+    radius: float  # of every ball, m
+    rubbing: Any  # a BallLaw
+    edge: Any  # an EdgeLaw
+    e_cue_ball: float
+    e_ball_ball: float
+    e_ball_cushion: float
+    coulomb: bool  # friction here never adds energy: no shot runs away
+    cue_ball: int  # its number; -1 for none
+
+
+@inlined
+def spin_left(wz: float, table: Any, elapsed: float) -> float:
+    """Return the spin about the vertical axis `elapsed` s later, rad/s."""
+    left = max(abs(wz) - table.spin * elapsed, 0.0)
+    return left if wz > 0.0 else -left
+
+
+def position_at(ball: Record, table: BallTable, t: float) -> tuple[float, float]:
+    """Return where a ball is at `t`, m."""
+    elapsed = t - ball.since
+    return (
+        ball.x + elapsed * (ball.vx + 0.5 * elapsed * ball.ax),
+        ball.y + elapsed * (ball.vy + 0.5 * elapsed * ball.ay),
+    )
+
+
+def velocity_at(ball: Record, table: BallTable, t: float) -> tuple[float, float]:
+    """Return the velocity of a ball at `t`, m/s."""
+    elapsed = t - ball.since
+    return ball.vx + elapsed * ball.ax, ball.vy + elapsed * ball.ay
+
+
+def acceleration(ball: Record, table: BallTable) -> tuple[float, float]:
+    """Return its acceleration, m/s^2."""
+    return ball.ax, ball.ay
+
+
+def shown_at(ball: Record, table: BallTable) -> tuple[float, float]:
+    """Return where a ball is at `since`; in a pocket that is the pocket's centre."""
+    if ball.pocket >= 0:
+        return pocket_centre(table.boundary, ball.pocket)
+    return ball.x, ball.y
+
+
+def advance(ball: Record, table: BallTable, now: float) -> tuple[float, float]:
+    """Begin the motion anew at `now`, with the spin that is left."""
+    elapsed = now - ball.since
+    ball.x += elapsed * (ball.vx + 0.5 * elapsed * ball.ax)
+    ball.y += elapsed * (ball.vy + 0.5 * elapsed * ball.ay)
+    ball.vx += elapsed * ball.ax
+    ball.vy += elapsed * ball.ay
+    if ball.phase == SLIDES:
+        turn = 2.5 / table.radius * elapsed
+        ball.wx += turn * ball.ay
+        ball.wy -= turn * ball.ax
+    elif ball.phase == ROLLS:
+        ball.wx, ball.wy = -ball.vy / table.radius, ball.vx / table.radius
+    ball.wz = spin_left(ball.wz, table, elapsed)
+    ball.since = now
+    return ball.vx, ball.vy
+
+
+def set_off(ball: Record, table: BallTable, vx: float, vy: float) -> None:
+    """Begin a new motion at (vx, vy), m/s, with the spin that the ball has."""
+    ball.vx, ball.vy = vx, vy
+    ball.changes += 1
+    begin_phase(ball, table)
+
+
+@inlined
+def begin_phase(ball: Record, table: Any) -> None:
+    """Choose the phase that goes with the velocity and the spin of a ball."""
+    radius = table.radius
+    slip_x, slip_y = ball.vx - radius * ball.wy, ball.vy + radius * ball.wx
+    slip = np.sqrt(slip_x * slip_x + slip_y * slip_y)
+    shortest = SHORTEST_PHASE * max(ball.since, 1.0)
+    scale = abs(ball.vx) + abs(ball.vy) + radius * (abs(ball.wx) + abs(ball.wy))
+    if slip > SLIP_ROUNDING * scale and 2.0 * slip > 7.0 * table.slide * shortest:
+        ball.phase = SLIDES
+        ball.ax, ball.ay = -table.slide * (slip_x / slip), -table.slide * (slip_y / slip)
+        ball.phase_end = ball.since + 2.0 * slip / (7.0 * table.slide)
+        return
+    begin_to_roll(ball, table)
+
+
+@inlined
+def begin_to_roll(ball: Record, table: Any) -> None:
+    """Let a ball roll, whatever slip rounding has left; or rest, if it hardly moves."""
+    speed = np.sqrt(ball.vx * ball.vx + ball.vy * ball.vy)
+    if speed > table.roll * SHORTEST_PHASE * max(ball.since, 1.0) and speed > 0.0:
+        ball.phase = ROLLS
+        ball.ax, ball.ay = -table.roll * (ball.vx / speed), -table.roll * (ball.vy / speed)
+        ball.wx, ball.wy = -ball.vy / table.radius, ball.vx / table.radius
+        ball.phase_end = ball.since + speed / table.roll
+        return
+    ball.phase = RESTS
+    ball.vx, ball.vy, ball.ax, ball.ay, ball.wx, ball.wy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    ball.phase_end = np.inf
+
+
+def phase_end_time(ball: Record, table: BallTable) -> float:
+    """Return when a moving ball stops to slide or to roll, s."""
+    return ball.phase_end
+
+
+def end_phase(ball: Record, table: BallTable, now: float) -> int:
+    """Let a ball that slides roll, one that rolls rest; nobody else need know of the first."""
+    elapsed = ball.phase_end - ball.since
+    slides = ball.phase == SLIDES
+    ball.x += elapsed * (ball.vx + 0.5 * elapsed * ball.ax)
+    ball.y += elapsed * (ball.vy + 0.5 * elapsed * ball.ay)
+    ball.wz = spin_left(ball.wz, table, elapsed)
+    ball.since = now
+    if slides:
+        # Exactly what is left when the slip is gone: v - 2/7 of the slip.
+        radius = table.radius
+        ball.vx, ball.vy = (
+            (5.0 * ball.vx + 2.0 * radius * ball.wy) / 7.0,
+            (5.0 * ball.vy - 2.0 * radius * ball.wx) / 7.0,
+        )
+        begin_to_roll(ball, table)
+        if ball.phase == ROLLS:
+            return ROLL
+    else:
+        ball.vx, ball.vy, ball.ax, ball.ay, ball.wx, ball.wy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        ball.phase = RESTS
+        ball.phase_end = np.inf
+    ball.changes += 1
+    return STOP
+
+
+def has_phases(table: BallTable) -> bool:
+    """Return that a ball rolls when it has stopped to slide."""
+    return True
+
+
+def rest_begins(ball: Record, table: BallTable) -> float:
+    """Return when a ball that does not move stops to spin too, s."""
+    if ball.wz == 0.0:
+        return ball.since
+    return ball.since + abs(ball.wz) / table.spin
+
+
+def runs_away(ball: Record, table: BallTable, most: float) -> bool:
+    """Return that no ball does: friction here takes energy."""
+    return False
+
+
+def path_from(ball: Record, table: BallTable, now: float) -> CurvedPath:
+    """Return the path from `now` on."""
+    elapsed = now - ball.since
+    return CurvedPath(
+        ball.x + elapsed * (ball.vx + 0.5 * elapsed * ball.ax),
+        ball.y + elapsed * (ball.vy + 0.5 * elapsed * ball.ay),
+        ball.vx + elapsed * ball.ax,
+        ball.vy + elapsed * ball.ay,
+        ball.ax,
+        ball.ay,
+        min(ball.phase_end - now, LONGEST),
+        ball.phase == ROLLS,
+    )
+
+
+def time_to_boundary(path: CurvedPath, table: BallTable, ball: Record) -> tuple[float, int]:
+    """Return the seconds to the first cushion or pocket while the phase lasts."""
+    return time_to_cushions(table.boundary, path, table.radius)
+
+
+def time_to_cell_edge(
+    path: CurvedPath,
+    table: BallTable,
+    x_low: float,
+    x_high: float,
+    y_low: float,
+    y_high: float,
+) -> tuple[float, int, int]:
+    """Return the seconds to the edge of the cell, and the step over it."""
+    seconds, step_x, step_y = path.lasts, 1, 0
+    t = time_over(x_high - path.x, path.vx, path.ax)
+    if t < seconds:
+        seconds = t
+    t = time_over(path.x - x_low, -path.vx, -path.ax)
+    if t < seconds:
+        seconds, step_x = t, -1
+    t = time_over(y_high - path.y, path.vy, path.ay)
+    if t < seconds:
+        seconds, step_x, step_y = t, 0, 1
+    t = time_over(path.y - y_low, -path.vy, -path.ay)
+    if t < seconds:
+        seconds, step_x, step_y = t, 0, -1
+    return (seconds if seconds < path.lasts else np.inf), step_x, step_y
+
+
+@inlined
+def time_over(gap: float, closing: float, pressing: float) -> float:
+    """Return the seconds until an edge that is `gap` m away is crossed; inf for never."""
+    return first_root(max(gap, 0.0), closing, -pressing) if gap < np.inf else np.inf
+
+
+@inlined
+def straight(path: Any) -> StraightPath:
+    """Return the path of a ball that rolls."""
+    speed = np.sqrt(path.vx * path.vx + path.vy * path.vy)
+    inverse = 1.0 / speed if speed > 0.0 else 0.0
+    return StraightPath(path.x, path.y, path.vx * inverse, path.vy * inverse, speed)
+
+
+def first_resting_ball(
+    path: CurvedPath,
+    table: BallTable,
+    radius: float,
+    lasts: float,
+    rows: NDArray[np.float64],
+) -> tuple[float, int]:
+    """Return the seconds to the first resting ball, and which, of few."""
+    if not path.rolls:
+        return first_in_rows(path, radius, lasts, rows)
+    line = straight(path)
+    reach = distance_covered(min(lasts, path.lasts), line.speed, table.roll)
+    distance, ball = first_on_path(line, radius, reach, rows)
+    if ball < 0:
+        return np.inf, ball
+    return time_to_cover(distance, line.speed, table.roll), ball
+
+
+def first_resting_of(
+    path: CurvedPath,
+    table: BallTable,
+    radius: float,
+    lasts: float,
+    balls: NDArray[np.void],
+    listed: NDArray[np.int64],
+    count: int,
+) -> tuple[float, int]:
+    """Return the seconds to the first resting ball, and which, of those listed."""
+    return first_of_listed(path, radius, min(lasts, path.lasts), balls, listed, count)
+
+
+def time_to_resting_ball(
+    path: CurvedPath, table: BallTable, dx: float, dy: float, touch: float
+) -> float:
+    """Return the seconds to a resting ball while the phase lasts."""
+    if path.rolls:
+        line = straight(path)
+        reach = distance_covered(path.lasts, line.speed, table.roll)
+        distance = distance_to_resting_ball(dx, dy, line.ux, line.uy, touch, reach)
+        return time_to_cover(distance, line.speed, table.roll) if distance < reach else np.inf
+    return time_to_place(path, dx, dy, touch, path.lasts)
+
+
+def relative_motion(path: CurvedPath, table: BallTable, other: CurvedPath) -> RelativeMotion:
+    """Return how the ball on path `other` moves relative to that on `path`."""
+    return RelativeMotion(
+        other.x - path.x,
+        other.y - path.y,
+        other.vx - path.vx,
+        other.vy - path.vy,
+        other.ax - path.ax,
+        other.ay - path.ay,
+    )
+
+
+def lie_at(ball: Record, table: BallTable, x: float, y: float) -> None:
+    """Put a ball at rest to (x, y), m; in a pocket's circle it is out of play."""
+    ball.pocket = pocket_at(table.boundary, x, y)
+    caught = ball.pocket >= 0
+    ball.x, ball.y = (np.inf, np.inf) if caught else (x, y)
+
+
+def in_play(ball: Record, table: BallTable) -> bool:
+    """Return whether a ball is on the cloth."""
+    return ball.pocket < 0
+
+
+def pocket_of(ball: Record, table: BallTable) -> int:
+    """Return the number of the pocket in which a ball is, -1 for none."""
+    return ball.pocket
+
+
+def catch(ball: Record, table: BallTable, pocket: int, now: float) -> None:
+    """Take a ball out of the play: it is nowhere, so that nothing can touch it."""
+    ball.pocket = pocket
+    ball.x, ball.y, ball.since = np.inf, np.inf, now
+    ball.vx, ball.vy, ball.ax, ball.ay = 0.0, 0.0, 0.0, 0.0
+    ball.wx, ball.wy, ball.wz = 0.0, 0.0, 0.0
+    ball.phase, ball.phase_end = RESTS, np.inf
+    ball.changes += 1
+
+
+def give_spin(ball: Record, table: BallTable, wx: float, wy: float, wz: float) -> None:
+    """Give a ball at rest its spin, rad/s."""
+    ball.wx, ball.wy, ball.wz = wx, wy, wz
+
+
+def log_spin(segment: Record, ball: Record, table: BallTable) -> None:
+    """Write down the spin at the start of a segment, and how it changes."""
+    segment.wx, segment.wy, segment.wz = ball.wx, ball.wy, ball.wz
+    if ball.phase == SLIDES:
+        turn = 2.5 / table.radius
+        segment.turn_x, segment.turn_y = turn * ball.ay, -turn * ball.ax
+    elif ball.phase == ROLLS:
+        segment.turn_x, segment.turn_y = -ball.ay / table.radius, ball.ax / table.radius
+    else:
+        segment.turn_x, segment.turn_y = 0.0, 0.0
+
+
+def balls_at_rest(
+    positions: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    masses: NDArray[np.float64],
+    is_cue: NDArray[np.bool_],
+    boundary: Any,
+) -> NDArray[np.void]:
+    """Return the records, (n,) of BALL, of balls at rest at (n, 2) positions in m, (n,) kg."""
+    records = np.zeros(len(positions), BALL)
+    records['x'], records['y'] = positions.T
+    records['radius'], records['inverse_mass'] = radii, 1.0 / masses
+    records['is_cue'] = is_cue
+    records['phase_end'] = np.inf
+    records['next_contact_time'] = records['cell_exit_time'] = np.inf
+    records['last_contact_time'] = -np.inf
+    for record in records:
+        record['pocket'] = pocket_at(boundary, record['x'], record['y'])
+        if record['pocket'] >= 0:
+            record['x'] = record['y'] = np.inf
+    return records
