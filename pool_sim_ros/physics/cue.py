@@ -11,7 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.table import MASSES, Table
+from pool_sim_ros.physics.balls import MASSES
+from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import MAX_SPEED, ROUNDING_OF_OFFSET
 from pool_sim_ros.physics.validation import number
 

@@ -13,7 +13,8 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.table import Ball, Table
+from pool_sim_ros.physics.balls import Ball
+from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import OVERLAP
 from pool_sim_ros.physics.validation import number, whole_number
 

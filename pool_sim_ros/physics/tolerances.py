@@ -90,9 +90,6 @@ REPEAT_WINDOW = 1e-3
 LEAST_PARTING = 1e-3
 """The same as V_MIN for balls that spin, m/s: what the cloth presses on is ended by this."""
 
-PRESS_WINDOW = 0.1
-"""The same as REPEAT_WINDOW for balls that spin, s: rolling on in contact, they meet that rarely."""
-
 ROUND = 1e-6
 """Time in s within which a contact belongs to the same rattle as the one before."""
 
@@ -105,7 +102,7 @@ LAST_ROUND = 250
 # Orientations
 
 TURN_ERROR = 1e-10
-"""Error in rad that one stretch of motion may add to how a ball is turned: a shot has some hundred."""
+"""Error in rad that one stretch of motion may add to how a ball is turned; a shot has hundreds."""
 
 UNIT_QUATERNION = 1e-6
 """By how much the length of a unit quaternion may be off that is given."""

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.jit import for_kernels, inlined, kernel
 from pool_sim_ros.physics.orientation import look_up_orientations
-from pool_sim_ros.physics.outcomes import NO_POCKETED
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT, UNIT_QUATERNION
 from pool_sim_ros.physics.validation import array
@@ -50,12 +49,12 @@ class Trajectory:
     events: NDArray[np.void]
     segments: NDArray[np.void]
     complete: bool
-    _pocketed: NDArray[np.int64] = NO_POCKETED
+    _pocketed: NDArray[np.int64] | None = None
 
     @cached_property
     def pocketed(self) -> NDArray[np.int64]:
         """Number of the pocket in which each ball is at the end, (n,); -1 for none."""
-        if self._pocketed.size:
+        if self._pocketed is not None and self._pocketed.size:
             return self._pocketed
         return np.full(len(self.final_positions), -1)
 

@@ -17,7 +17,8 @@ from pool_sim_ros.physics.law_names import (
     FrictionBound,
     number_of,
 )
-from pool_sim_ros.physics.table import MASSES, MAX_FRICTION, RADII
+from pool_sim_ros.physics.balls import MASSES, RADII
+from pool_sim_ros.physics.table import MAX_FRICTION
 from pool_sim_ros.physics.tolerances import MAX_SPEED, MAX_SPIN
 from pool_sim_ros.physics.validation import number, numbers
 
