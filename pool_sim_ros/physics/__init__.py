@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
     from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
+    from pool_sim_ros.physics.game_tables import pool_table
+    from pool_sim_ros.physics.pool_tables import POOL_TABLES, PoolTableName
     from pool_sim_ros.physics.racks import RackKind, rack
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
     from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, BallFriction, Table
@@ -49,12 +51,15 @@ else:
             'CushionModel': 'law_names',
             'Cushions': 'cushions',
             'FrictionBound': 'law_names',
+            'POOL_TABLES': 'pool_tables',
+            'PoolTableName': 'pool_tables',
             'RackKind': 'racks',
             'check_layout': 'validation',
             'collide_balls': 'contacts.single',
             'collide_cushion': 'contacts.single',
             'compile_kernels': 'shots',
             'cue_strike': 'cue',
+            'pool_table': 'game_tables',
             'rack': 'racks',
             'report_table': 'me212_table',
             'simulate': 'shots',
@@ -76,6 +81,8 @@ __all__ = [
     'FrictionBound',
     'Integrator',
     'Outcomes',
+    'POOL_TABLES',
+    'PoolTableName',
     'RackKind',
     'ShotTooLong',
     'Table',
@@ -86,6 +93,7 @@ __all__ = [
     'collide_cushion',
     'compile_kernels',
     'cue_strike',
+    'pool_table',
     'rack',
     'report_table',
     'simulate',
