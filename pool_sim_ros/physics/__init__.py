@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.me212_table import report_table
     from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
     from pool_sim_ros.physics.racks import RackKind, rack
+    from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
     from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, Ball, BallFriction, Table
     from pool_sim_ros.physics.trajectory import Trajectory
@@ -60,6 +61,7 @@ else:
             'cue_strike': 'cue',
             'rack': 'racks',
             'report_table': 'me212_table',
+            'separated': 'separation',
             'simulate': 'shots',
             'simulate_many': 'shots',
             'two_ball_collision': 'contacts',
@@ -91,6 +93,7 @@ __all__ = [
     'cue_strike',
     'rack',
     'report_table',
+    'separated',
     'simulate',
     'simulate_many',
     'two_ball_collision',

@@ -144,6 +144,9 @@ MOST_EVENTS_A_BALL = 1_000
 
 # The report's integrator
 
+MAX_SEPARATIONS = 20_000
+"""Times that balls which overlap are moved apart; a rack of 15 needs some hundred."""
+
 LOOK_MARGIN = 1e-6
 """Part by which the look at a pair comes earlier than the two could touch: far above rounding."""
 
