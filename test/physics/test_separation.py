@@ -64,8 +64,8 @@ def test_what_slices_let_into_each_other():
         for j in range(i + 1)
     )
     spots = [(1.5, 0.5), *rows]
-    table = table_of(spots)
-    shot = simulate(table, (-3.0, 0.0), integrator='time_slice', time_slice=1e-4)
+    table = table_of(spots, e_ball_ball=0.3)
+    shot = simulate(table, (-3.0, 0.01), integrator='time_slice', time_slice=1e-4)
     with pytest.raises(ValueError, match='overlap'):
         check_layout(table, shot.final_positions)
     simulate(table, (-1.0, 0.1), positions=separated(table, shot.final_positions))
