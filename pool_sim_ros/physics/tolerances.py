@@ -144,7 +144,7 @@ MOST_EVENTS_A_BALL = 1_000
 
 # The report's integrator
 
-MAX_SEPARATIONS = 20_000
+MAX_SEPARATIONS = 2_000
 """Times that balls which overlap are moved apart; a rack of 15 needs some hundred."""
 
 LOOK_MARGIN = 1e-6
