@@ -13,8 +13,7 @@ from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
-NODE_NAME = 'pool_sim'
-"""The node's name unless it is renamed."""
+from pool_sim_ros.ros.names import NODE_NAME as NODE_NAME
 
 BURST = 1000
 """Depth of the queues that must not lose a burst of commands or answers."""
