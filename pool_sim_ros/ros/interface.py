@@ -107,7 +107,10 @@ STATE = Topic(
 )
 TABLE = Topic('table', String, 'JSON: the fields of physics.Table', _qos(1, latched=True))
 MARKERS = Topic(
-    'markers', MarkerArray, 'the table, the balls, their labels and trails', _qos(10, latched=True)
+    'markers',
+    MarkerArray,
+    'the table, the balls, their labels and trails; a message that begins with DELETEALL holds all',
+    _qos(10, latched=True),
 )
 CLOCK = Topic('/clock', Clock, 'sim time, only with the parameter publish_clock', _qos(1))
 DIAGNOSTICS = Topic(
