@@ -7,7 +7,6 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from xml.etree import ElementTree
 
 import pytest
 from process_harness import node_process
@@ -54,13 +53,16 @@ def test_the_layouts_of_the_viewers_name_what_the_node_has(name):
         json.loads(text)
 
 
-def test_the_launch_file_starts_what_is_there():
-    root = ElementTree.parse(PROJECT / 'launch' / 'pool.launch.xml').getroot()
-    ours = [node for node in root.iter('node') if node.get('pkg') == 'pool_sim_ros']
-    assert [node.get('exec') for node in ours] == ['sim_node']
-    text = (PROJECT / 'launch' / 'pool.launch.xml').read_text()
-    files = re.findall(r'\$\(find-pkg-share pool_sim_ros\)/([\w./]+)', text)
-    assert files and all((PROJECT / file).is_file() for file in files)
+def test_the_layout_of_foxglove_has_what_its_open_fork_asks_for():
+    """Lichtblick's `LayoutData` requires the first three; a layout names panels that are there."""
+    layout = json.loads((PROJECT / 'config' / 'foxglove_layout.json').read_text())
+    assert {'configById', 'globalVariables', 'playbackConfig', 'userNodes', 'layout'} == set(layout)
+    assert layout['playbackConfig'] == {'speed': 1}
+
+    def panels(node):
+        return {node} if isinstance(node, str) else panels(node['first']) | panels(node['second'])
+
+    assert panels(layout['layout']) == set(layout['configById'])
 
 
 def test_make_help_lists_every_target():

@@ -3,23 +3,22 @@
 `interface` declares every topic and service. `SimNode` is the node. `ShotClient` plays shots on a
 node, `Recorder` keeps what it publishes, and `SimulatorError` says why that failed. Users import
 these. The other names are for `cli` and `web_view`, which import this room; it imports neither.
+
+Nothing is loaded before it is asked for, so `ros_command` and `node_name` work without ROS.
 """
 
 from typing import TYPE_CHECKING
 
 from pool_sim_ros.lazy import lazy_exports
-from pool_sim_ros.ros import interface, messages
 
 if TYPE_CHECKING:
+    from pool_sim_ros.ros import interface, messages
     from pool_sim_ros.ros.client import ShotClient, SimulatorError
+    from pool_sim_ros.ros.command import ros_command
     from pool_sim_ros.ros.digest import digests
     from pool_sim_ros.ros.mcap import write_bag
-    from pool_sim_ros.ros.process import (
-        init_ros,
-        leave_at_once,
-        ros_command,
-        shut_down_on_signals,
-    )
+    from pool_sim_ros.ros.names import NODE_NAME, node_name
+    from pool_sim_ros.ros.process import init_ros, leave_at_once, shut_down_on_signals
     from pool_sim_ros.ros.publishers import Publishers
     from pool_sim_ros.ros.recorder import Recorder
     from pool_sim_ros.ros.sim_node import SimNode
@@ -28,6 +27,7 @@ else:
     __getattr__ = lazy_exports(
         __name__,
         {
+            'NODE_NAME': 'names',
             'Publishers': 'publishers',
             'Recorder': 'recorder',
             'ShotClient': 'client',
@@ -36,14 +36,18 @@ else:
             'SimulatorLink': 'simulator_link',
             'digests': 'digest',
             'init_ros': 'process',
+            'interface': 'interface',
             'leave_at_once': 'process',
-            'ros_command': 'process',
+            'messages': 'messages',
+            'node_name': 'names',
+            'ros_command': 'command',
             'shut_down_on_signals': 'process',
             'write_bag': 'mcap',
         },
     )
 
 __all__ = [
+    'NODE_NAME',
     'Publishers',
     'Recorder',
     'ShotClient',
@@ -55,6 +59,7 @@ __all__ = [
     'interface',
     'leave_at_once',
     'messages',
+    'node_name',
     'ros_command',
     'shut_down_on_signals',
     'write_bag',

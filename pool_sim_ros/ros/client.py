@@ -14,6 +14,7 @@ from rclpy.context import Context
 from rclpy.subscription import Subscription
 from std_msgs.msg import Float64MultiArray, String
 
+from pool_sim_ros.console import CommandError
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.simulator_link import SimulatorLink
 from pool_sim_ros.simulator import Phase, stamp_to_seconds
@@ -27,7 +28,7 @@ pause. One is not enough: a shot begins one tick after it is computed, and the r
 is done may arrive late."""
 
 
-class SimulatorError(Exception):
+class SimulatorError(CommandError):
     """The simulator did not do what was asked; the message is for the user."""
 
 

@@ -13,8 +13,7 @@ from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
-NODE_NAME = 'pool_sim'
-"""The node's name unless it is renamed."""
+from pool_sim_ros.ros.names import NODE_NAME as NODE_NAME
 
 BURST = 1000
 """Depth of the queues that must not lose a burst of commands or answers."""
@@ -108,7 +107,10 @@ STATE = Topic(
 )
 TABLE = Topic('table', String, 'JSON: the fields of physics.Table', _qos(1, latched=True))
 MARKERS = Topic(
-    'markers', MarkerArray, 'the table, the balls, their labels and trails', _qos(10, latched=True)
+    'markers',
+    MarkerArray,
+    'the table, the balls, their labels and trails; a message that begins with DELETEALL holds all',
+    _qos(10, latched=True),
 )
 CLOCK = Topic('/clock', Clock, 'sim time, only with the parameter publish_clock', _qos(1))
 DIAGNOSTICS = Topic(

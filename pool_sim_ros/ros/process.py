@@ -2,76 +2,28 @@
 
 from __future__ import annotations
 
-import argparse
-import functools
 import os
 import re
 import signal
 import sys
 import threading
-from collections.abc import Callable
 
 import rclpy
 from rclpy.context import Context
-from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
+from rclpy.exceptions import NameValidationException
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from pool_sim_ros.console import INTERRUPTED, CommandError, Main, console_command
+from pool_sim_ros.console import CommandError
 
 
 class StartupError(CommandError):
     """ROS could not be brought up; the message is for the user."""
 
 
-NAME_ERRORS = (InvalidNamespaceException, InvalidNodeNameException)
-"""What the node's constructor raises for a bad `__node` or `__ns`."""
-
-
-def ros_command(
-    name: str,
-    parser: Callable[[], argparse.ArgumentParser],
-    *errors: type[Exception],
-    interrupted: str | None = None,
-    interrupt_status: int = INTERRUPTED,
-) -> Callable[[Callable[[Context, argparse.Namespace], int | None]], Main]:
-    """Return a decorator that makes the `main` of a command which takes part in ROS.
-
-    ROS is up before the function runs, and goes down after it. The function takes the context and
-    the parsed arguments; it returns the exit status, where None stands for 0.
-
-    Parameters
-    ----------
-    name : str
-        What the user calls the command.
-    parser : callable
-        Returns the parser of the arguments that are not for ROS.
-    *errors, interrupted, interrupt_status
-        As in `console.console_command`. Bad names of nodes and bad arguments for ROS are always
-        told in one line.
-    """
-
-    def decorate(run: Callable[[Context, argparse.Namespace], int | None]) -> Main:
-        @console_command(
-            name,
-            *NAME_ERRORS,
-            *errors,
-            interrupted=interrupted,
-            interrupt_status=interrupt_status,
-        )
-        @functools.wraps(run)
-        def main(args: list[str]) -> int | None:
-            options = parser().parse_args(without_ros_args(args))
-            context = init_ros(args)
-            try:
-                return run(context, options)
-            finally:
-                context.try_shutdown()
-
-        return main
-
-    return decorate
+NAME_ERRORS = (NameValidationException,)
+"""What ROS raises for a bad `__node` or `__ns`, and for names that are too long with them."""
 
 
 def without_ros_args(args: list[str]) -> list[str]:

@@ -77,9 +77,10 @@ class Publishers:
         self._markers.frame(frame)
 
     def clock(self, stamp: int) -> None:
-        """Send the sim time in ns, if `publish_clock` is set."""
+        """Send the sim time in ns, if `publish_clock` is set; send all to a new viewer."""
         if self._clock is not None:
             self._clock.publish(*cdr.clock_bytes([stamp]))
+        self._markers.look()
 
     def responses(self, responses: Sequence[Response]) -> None:
         """Send responses."""

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 
 from geometry_msgs.msg import PoseArray, Twist
@@ -92,7 +93,8 @@ class SimNode(Node):
         if not settings.record:
             return None
         try:
-            return CommandLog(settings.record, settings, self.get_logger().error)
+            path = os.path.expanduser(settings.record)
+            return CommandLog(path, settings, self.get_logger().error)
         except LogError as error:
             raise ParameterError(f'record: {error}') from error
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Callable
-from typing import Any
 
 from rclpy.client import Client
 from rclpy.context import Context
@@ -71,7 +70,7 @@ class SimulatorLink:
     def subscribe(
         self,
         topic: interface.Topic,
-        callback: Callable[[Any], None],
+        callback: Callable[..., None],
         *,
         depth: int | None = None,
         past: bool = True,
@@ -83,7 +82,7 @@ class SimulatorLink:
         ----------
         topic : Topic
         callback : callable
-            Called with each message.
+            Called with each message, or with it and what ROS knows about it.
         depth : int, optional
             Depth of the queue, in messages; by default that of the topic.
         past : bool, optional

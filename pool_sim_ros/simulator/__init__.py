@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.simulator.replay import replay_frames
     from pool_sim_ros.simulator.runner import Runner
     from pool_sim_ros.simulator.settings import Settings, build_settings
-    from pool_sim_ros.simulator.shot_request import Phase, Response
+    from pool_sim_ros.simulator.shot_request import Code, Phase, Response, parse_request
     from pool_sim_ros.simulator.sim_time import (
         NANOSECOND,
         SECOND_NS,
@@ -42,6 +42,7 @@ else:
             'Block': 'frame',
             'COLLISION_COLUMNS': 'frame',
             'Change': 'parameter_table',
+            'Code': 'shot_request',
             'CommandLog': 'command_log',
             'Diagnosis': 'health',
             'Frame': 'frame',
@@ -62,6 +63,7 @@ else:
             'build_settings': 'settings',
             'coerce': 'parameter_values',
             'default_values': 'parameter_table',
+            'parse_request': 'shot_request',
             'read_log': 'command_log',
             'replay_frames': 'replay',
             'seconds_to_stamp': 'sim_time',
@@ -76,6 +78,7 @@ __all__ = [
     'Block',
     'COLLISION_COLUMNS',
     'Change',
+    'Code',
     'CommandLog',
     'Diagnosis',
     'Frame',
@@ -96,6 +99,7 @@ __all__ = [
     'build_settings',
     'coerce',
     'default_values',
+    'parse_request',
     'read_log',
     'replay_frames',
     'seconds_to_stamp',

@@ -30,6 +30,9 @@ FRAME_PERIOD = 1 / 100
 """Seconds between two looks for a new frame; at real speed one comes every 1/60 s. If the simulator
 runs faster, the pages see the latest."""
 
+COMPILE_NOTICE = 1.0
+"""Seconds after which the kernels are being compiled, not merely loaded."""
+
 
 class View:
     """Shows one simulator to the pages, and does what they ask.
@@ -149,9 +152,17 @@ class View:
         self._run(self._compile(self._table))
 
     async def _compile(self, table: Table) -> None:
-        await asyncio.to_thread(compile_kernels, table)
+        notice = self._loop.call_later(COMPILE_NOTICE, self._tell_of_compiling, True)
+        try:
+            await asyncio.to_thread(compile_kernels, table)
+        finally:
+            notice.cancel()
+            self._tell_of_compiling(False)
         self._compiled = True
         self.pages.tell('predicts', True, keep=True)
+
+    def _tell_of_compiling(self, compiling: bool) -> None:
+        self.pages.tell('compiling', compiling, keep=True)
 
     def _look_for_frame(self) -> None:
         self._look = self._loop.call_later(FRAME_PERIOD, self._look_for_frame)

@@ -60,6 +60,10 @@ class Process:
             self._texts[name].append(line)
 
     @property
+    def pid(self):
+        return self._popen.pid
+
+    @property
     def stdout(self):
         return ''.join(self._texts['stdout'])
 

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import threading
 
 import numpy as np
 import pytest
@@ -284,3 +285,46 @@ def test_while_balls_move_there_is_nothing_to_predict_from():
         return (await site.heard())['prediction']
 
     assert on_site(use) == [None]
+
+
+def test_pages_are_told_while_the_physics_is_compiled(monkeypatch):
+    compiled = threading.Event()
+    monkeypatch.setattr(module, 'compile_kernels', lambda table: compiled.wait(PATIENCE))
+    monkeypatch.setattr(module, 'COMPILE_NOTICE', 0.0)
+
+    async def use(site):
+        site.view.on_table(messages.to_string(table_to_json(TABLE)))
+        during, late = await site.heard(), await site.heard(site.view.pages.open())
+        compiled.set()
+        after = {}
+        while 'predicts' not in after:
+            after |= await site.heard()
+        return during, late, after
+
+    during, late, after = on_site(use)
+    assert during['compiling'] == late['compiling'] == [True]
+    assert 'predicts' not in during
+    assert after['compiling'] == [False] and after['predicts'] == [True]
+
+
+def test_a_physics_that_is_compiled_already_is_not_told():
+    compile_kernels(TABLE)
+    heard = on_site(with_everything)
+    assert True not in heard.get('compiling', [])
+
+
+def test_a_physics_that_cannot_be_compiled_is_not_waited_for(monkeypatch):
+    def fail(table):
+        raise RuntimeError('no compiler')
+
+    monkeypatch.setattr(module, 'compile_kernels', fail)
+
+    async def use(site):
+        site.view.on_table(messages.to_string(table_to_json(TABLE)))
+        heard = {}
+        while 'compiling' not in heard:
+            heard |= await site.heard()
+        return heard
+
+    heard = on_site(use)
+    assert heard['compiling'] == [False] and 'predicts' not in heard
