@@ -22,6 +22,7 @@ from pool_sim_ros.console import (
     require,
     speed,
 )
+from pool_sim_ros.ros import check_environment
 
 if TYPE_CHECKING:
     from pool_sim_ros.ros import ShotClient
@@ -55,6 +56,7 @@ def main(args: list[str]) -> int:
     """Play the four shots; return 0 where all positions equal the printed ones."""
     options = _parser().parse_args(args)
     require('rclpy')
+    check_environment()
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     # Like Ctrl-C, so that the node does not outlive the demo.
     signal.signal(signal.SIGTERM, signal.default_int_handler)

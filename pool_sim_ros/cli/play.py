@@ -12,6 +12,7 @@ import time
 
 from pool_sim_ros.cli.child_process import end, start_module
 from pool_sim_ros.console import CommandError, Parser, console_command, require
+from pool_sim_ros.ros import check_environment
 
 NAP = 0.05
 """Seconds between two checks of whether one of the two has ended."""
@@ -40,6 +41,7 @@ def main(args: list[str]) -> int:
     """Start both, and wait for a signal; return 1 where one of them ended before."""
     options = _parser().parse_args(args)
     require('rclpy', 'aiohttp')
+    check_environment()
     _check_port(options.port)
     # A table of its own, out of the way of any other on this machine or network.
     domain = os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 101))

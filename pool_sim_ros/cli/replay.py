@@ -50,6 +50,10 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _note(line: str) -> None:
+    print(f'replay: {line}', file=sys.stderr)
+
+
 @ros_command('replay', _parser)
 def main(context: Context, options: argparse.Namespace) -> None:
     """Replay a session, or print the digests of what it sends."""
@@ -57,7 +61,7 @@ def main(context: Context, options: argparse.Namespace) -> None:
     from pool_sim_ros.simulator import LogError, read_log, replay_frames
 
     try:
-        settings, commands = read_log(options.file)
+        settings, commands = read_log(options.file, _note)
         if options.digest:
             for topic, digest in digests(settings, replay_frames(settings, commands)).items():
                 print(f'{digest}  {topic}')

@@ -65,6 +65,8 @@ def console_command(
                 complain(f'{name}: {import_line(error)}')
                 return 1
             except KeyboardInterrupt:
+                # What was interrupted while it was made may raise once more when it goes.
+                sys.unraisablehook = lambda _: None
                 if interrupted is not None:
                     complain(interrupted)
                 return interrupt_status

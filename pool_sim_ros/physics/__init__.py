@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
     from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, Ball, BallFriction, Table
+    from pool_sim_ros.physics.tolerances import V_MIN
     from pool_sim_ros.physics.trajectory import Trajectory
     from pool_sim_ros.physics.validation import check_layout
 else:
@@ -54,6 +55,7 @@ else:
             'Cushions': 'cushions',
             'FrictionBound': 'law_names',
             'RackKind': 'racks',
+            'V_MIN': 'tolerances',
             'check_layout': 'validation',
             'collide_balls': 'contacts',
             'collide_cushion': 'contacts',
@@ -86,6 +88,7 @@ __all__ = [
     'Table',
     'Trajectory',
     'TwoBallCollision',
+    'V_MIN',
     'check_layout',
     'collide_balls',
     'collide_cushion',

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.ros.client import ShotClient, SimulatorError
     from pool_sim_ros.ros.command import ros_command
     from pool_sim_ros.ros.digest import digests
+    from pool_sim_ros.ros.environment import check_environment
     from pool_sim_ros.ros.mcap import write_bag
     from pool_sim_ros.ros.names import NODE_NAME, node_name
     from pool_sim_ros.ros.process import init_ros, leave_at_once, shut_down_on_signals
@@ -34,6 +35,7 @@ else:
             'SimNode': 'sim_node',
             'SimulatorError': 'client',
             'SimulatorLink': 'simulator_link',
+            'check_environment': 'environment',
             'digests': 'digest',
             'init_ros': 'process',
             'interface': 'interface',
@@ -54,6 +56,7 @@ __all__ = [
     'SimNode',
     'SimulatorError',
     'SimulatorLink',
+    'check_environment',
     'digests',
     'init_ros',
     'interface',

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from pool_sim_ros.console import INTERRUPTED, CommandError, Main, console_command
+from pool_sim_ros.ros.environment import check_environment
 
 if TYPE_CHECKING:
     from rclpy.context import Context
@@ -45,9 +46,15 @@ def ros_command(
         @console_command(name, *errors, interrupted=interrupted, interrupt_status=interrupt_status)
         @functools.wraps(run)
         def main(args: list[str]) -> int | None:
+            check_environment()  # some of ROS ends the process as soon as it is loaded
             args = with_home(args)
             try:
-                from pool_sim_ros.ros.process import NAME_ERRORS, init_ros, without_ros_args
+                from pool_sim_ros.ros.process import (
+                    NAME_ERRORS,
+                    init_ros,
+                    start_error,
+                    without_ros_args,
+                )
             except ImportError:
                 parser().parse_args(before_ros_args(args))
                 raise
@@ -58,6 +65,11 @@ def ros_command(
                 return run(context, options)
             except NAME_ERRORS as error:
                 raise CommandError(' '.join(str(error).split())) from error
+            except RuntimeError as error:
+                told = start_error(error)
+                if told is None:
+                    raise
+                raise told from error
             finally:
                 context.try_shutdown()
 

@@ -68,12 +68,17 @@ def _qos(depth: int, latched: bool = False) -> QoSProfile:
 
 
 CUE_VELOCITY = Topic(
-    'cue_velocity', Twist, 'strike the cue ball: linear.x and linear.y, m/s', _qos(BURST)
+    'cue_velocity',
+    Twist,
+    'strike the cue ball: linear.x and linear.y, m/s; it has no id, so that a client cannot know '
+    'whether one was lost, nor send it again: use shot/request where that matters',
+    _qos(BURST),
 )
 SHOT_REQUEST = Topic(
     'shot/request',
     String,
-    '1 to 4, or JSON {"id": "...", "shot": 3} or {"id": "...", "velocity": [-4.0, 0.0]}',
+    '1 to 4, or JSON {"id": "...", "shot": 3} or {"id": "...", "velocity": [-4.0, 0.0]}; one '
+    'with an id may be sent again and again until it is answered: it is played once',
     _qos(BURST),
 )
 SHOT_RESPONSE = Topic(
@@ -83,7 +88,7 @@ SET_BALL_POSES = Topic(
     'set_ball_poses',
     PoseArray,
     'put all balls elsewhere while they rest: position.x and y of each, m, cue ball first; z and '
-    'orientation are ignored',
+    'orientation are ignored; header.frame_id is empty or the parameter frame_id',
     _qos(10),
 )
 BALL_POSES = Topic('ball_poses', PoseArray, 'each tick: every ball, cue ball first', _qos(10))

@@ -7,6 +7,7 @@ import re
 import signal
 import sys
 import threading
+import warnings
 
 import rclpy
 from rclpy.context import Context
@@ -15,15 +16,20 @@ from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from pool_sim_ros.console import CommandError
-
-
-class StartupError(CommandError):
-    """ROS could not be brought up; the message is for the user."""
-
+from pool_sim_ros.ros.environment import StartupError, check_arguments, check_environment
 
 NAME_ERRORS = (NameValidationException,)
 """What ROS raises for a bad `__node` or `__ns`, and for names that are too long with them."""
+
+NO_NODE = 'error creating node: '
+ARGUMENTS = 'the arguments cannot be read'
+STARTS = {
+    'failed to initialize rcl: ': 'ROS cannot start',
+    'failed to initialize logging: ': 'ROS cannot keep a log',
+    'Failed to parse ROS arguments: ': ARGUMENTS,
+    NO_NODE: 'ROS cannot make a node',
+}
+"""How the errors of rclpy begin, and what is told instead."""
 
 
 def without_ros_args(args: list[str]) -> list[str]:
@@ -34,6 +40,7 @@ def without_ros_args(args: list[str]) -> list[str]:
     StartupError
         If ROS cannot read its arguments, or a parameter file that they name.
     """
+    check_arguments(args)
     # The exception repeats what rcl logs about them.
     set_logger_level('rcl', LoggingSeverity.FATAL)
     try:
@@ -50,8 +57,12 @@ def init_ros(args: list[str]) -> Context:
     Raises
     ------
     StartupError
-        If ROS cannot read its arguments, or a parameter file that they name.
+        If ROS cannot read its arguments, or a parameter file that they name, or cannot start here.
     """
+    check_environment()
+    check_arguments(args)
+    # Printed beside the error that is told.
+    warnings.filterwarnings('ignore', 'Failed to fini rosout publisher', RuntimeWarning)
     set_logger_level('rcl', LoggingSeverity.FATAL)
     context = Context()
     try:
@@ -92,13 +103,22 @@ def leave_at_once(status: int) -> None:
     os._exit(status)
 
 
+def start_error(error: RuntimeError) -> StartupError | None:
+    """Return an error in one line where ROS could not make a node; None for any other error."""
+    message = str(error)
+    return StartupError(_explain(message)) if message.startswith(NO_NODE) else None
+
+
 def _explain(message: str) -> str:
-    message = re.sub(r', at \S+:\d+', '', message)
-    message = re.sub(r'^(failed to initialize rcl|Failed to parse ROS arguments): ', '', message)
-    pattern = r"Couldn't parse params file: '--params-file (.*)'\. Error: (.*)"
+    message = ' '.join(re.sub(r', at \S+:\d+', '', message).split())
+    start = next(filter(message.startswith, STARTS), '')
+    words, message = STARTS.get(start, ARGUMENTS), message.removeprefix(start)
+    if message.startswith(("Couldn't parse", 'Enclave name')):
+        words = ARGUMENTS
+    pattern = r"Couldn't parse params file: '--params-file (.*?)'\. Error: (.*)"
     found = re.match(pattern, message, re.S)
     if found is None:
-        return f'the arguments cannot be read: {message}'
+        return f'{words}: {message}'
     file, reason = found.groups()
     if 'opening' in reason:
         return f'the parameter file {file} cannot be opened'

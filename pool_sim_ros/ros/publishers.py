@@ -11,6 +11,7 @@ from rclpy.publisher import Publisher
 
 from pool_sim_ros.ros import cdr, interface, messages
 from pool_sim_ros.ros.marker_publisher import MarkerPublisher
+from pool_sim_ros.ros.namesakes import Namesakes
 from pool_sim_ros.simulator import (
     COLLISION_COLUMNS,
     VELOCITY_COLUMNS,
@@ -37,6 +38,7 @@ class Publishers:
         self.failed = False
         """Whether `fail` was called."""
         self._node = node
+        self._namesakes = Namesakes(node)
         self._to_poses = cdr.PosesWriter(settings.frame_id, settings.table.radii.tolist())
         self._to_velocities = cdr.RowsWriter('ball', VELOCITY_COLUMNS)
         self._to_collisions = cdr.RowsWriter('collision', COLLISION_COLUMNS)
@@ -96,9 +98,10 @@ class Publishers:
         self._table.publish(messages.to_string(table_to_json(settings.table)))
 
     def diagnostics(self, stamp: int, diagnosis: Diagnosis) -> None:
-        """Send how the node is doing, at a sim time in ns."""
+        """Send how the node is doing, at a sim time in ns; warn of nodes with its name."""
         name = self._node.get_fully_qualified_name()
         self._diagnostics.publish(messages.to_diagnostics(name, stamp, diagnosis))
+        self._namesakes.check()
 
     def tell(self, line: str) -> None:
         """Write to the log."""

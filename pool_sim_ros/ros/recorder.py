@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from geometry_msgs.msg import PoseArray
@@ -17,7 +16,7 @@ from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.client import SimulatorError
 from pool_sim_ros.ros.sim_stamps import Heard, Recorded, in_sim_time
 from pool_sim_ros.ros.simulator_link import SimulatorLink
-from pool_sim_ros.simulator import seconds_to_stamp
+from pool_sim_ros.simulator import response_from_json, seconds_to_stamp
 
 TOPICS = (
     interface.TABLE,
@@ -106,18 +105,35 @@ class Recorder:
         end = seconds_to_stamp(response['t_end'])
 
         def came() -> bool:
-            frames = [m.data for m in self._heard if m.topic is interface.BALL_POSES]
-            if len(frames) < 2:
+            stamps = [messages.from_time(pose.header.stamp) for pose in self._last_poses(2)]
+            if len(stamps) < 2 or stamps[0] < end:
                 return False
-            frame = deserialize_message(frames[-2], PoseArray)
-            if messages.from_time(frame.header.stamp) < end:
-                return False
-            texts = [m.data for m in self._heard if m.topic is interface.SHOT_RESPONSE]
-            answers = [json.loads(deserialize_message(text, String).data) for text in texts]
-            phases = [answer['phase'] for answer in answers if answer['id'] == response['id']]
-            return phases[-1:] == [response['phase']]
+            answers = [answer for answer in self._answers() if answer['id'] == response['id']]
+            return bool(answers) and answers[-1]['phase'] == response['phase']
 
         self._wait(came, timeout, 'did not send the end of the shot')
+
+    def _last_poses(self, count: int) -> list[PoseArray]:
+        """Return the last frames, in order; what is none is left out."""
+        poses: list[PoseArray] = []
+        for message in reversed(self._heard):
+            if len(poses) == count:
+                break
+            if message.topic is interface.BALL_POSES:
+                try:
+                    poses.insert(0, deserialize_message(message.data, PoseArray))
+                except Exception as error:  # whatever rclpy makes of bytes that are no message
+                    self._link.left_out(f'ball_poses: {error}')
+        return poses
+
+    def _answers(self) -> Iterator[dict[str, Any]]:
+        """Yield the responses, in order; what is none is left out."""
+        for message in list(self._heard):
+            if message.topic is interface.SHOT_RESPONSE:
+                try:
+                    yield response_from_json(deserialize_message(message.data, String).data)
+                except Exception as error:  # the same
+                    self._link.left_out(f'shot/response: {error}')
 
     def _hears_all(self) -> bool:
         heard = {message.name for message in self._heard}

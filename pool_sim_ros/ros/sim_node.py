@@ -105,7 +105,7 @@ class SimNode(Node):
         self._log(self.runner.request(message.data))
 
     def _on_set_ball_poses(self, message: PoseArray) -> None:
-        refusal = self.runner.place(messages.from_poses(message))
+        refusal = self.runner.place(messages.from_poses(message), message.header.frame_id)
         if refusal is not None:
             self._warn(f'set_ball_poses was rejected: {refusal}')
 

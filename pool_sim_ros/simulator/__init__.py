@@ -11,11 +11,14 @@ from typing import TYPE_CHECKING
 from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
+    from pool_sim_ros.simulator.bounded_file import FileError, open_bounded, read_text
     from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
     from pool_sim_ros.simulator.frame import COLLISION_COLUMNS, VELOCITY_COLUMNS, Block, Frame
     from pool_sim_ros.simulator.health import Diagnosis
+    from pool_sim_ros.simulator.heard import response_from_json, state_from_json
     from pool_sim_ros.simulator.output import Output
     from pool_sim_ros.simulator.pacer import Pacer
+    from pool_sim_ros.simulator.parameter_names import near_misses
     from pool_sim_ros.simulator.parameter_table import (
         PARAMETERS,
         Change,
@@ -45,6 +48,7 @@ else:
             'Code': 'shot_request',
             'CommandLog': 'command_log',
             'Diagnosis': 'health',
+            'FileError': 'bounded_file',
             'Frame': 'frame',
             'LogError': 'command_log',
             'NANOSECOND': 'sim_time',
@@ -64,10 +68,15 @@ else:
             'coerce': 'parameter_values',
             'default_values': 'parameter_table',
             'parse_request': 'shot_request',
+            'near_misses': 'parameter_names',
+            'open_bounded': 'bounded_file',
             'read_log': 'command_log',
+            'read_text': 'bounded_file',
             'replay_frames': 'replay',
+            'response_from_json': 'heard',
             'seconds_to_stamp': 'sim_time',
             'stamp_to_seconds': 'sim_time',
+            'state_from_json': 'heard',
             'table_from_json': 'table_json',
             'table_to_json': 'table_json',
             'values_from': 'parameter_values',
@@ -81,6 +90,7 @@ __all__ = [
     'Code',
     'CommandLog',
     'Diagnosis',
+    'FileError',
     'Frame',
     'LogError',
     'NANOSECOND',
@@ -100,10 +110,15 @@ __all__ = [
     'coerce',
     'default_values',
     'parse_request',
+    'near_misses',
+    'open_bounded',
     'read_log',
+    'read_text',
     'replay_frames',
+    'response_from_json',
     'seconds_to_stamp',
     'stamp_to_seconds',
+    'state_from_json',
     'table_from_json',
     'table_to_json',
     'values_from',

@@ -41,6 +41,8 @@ class ParameterSpec:
         What a string may be; none = anything.
     may_be_empty : bool
         Whether a string may be empty.
+    is_frame : bool
+        Whether a string is the name of a frame.
     """
 
     name: str
@@ -51,6 +53,7 @@ class ParameterSpec:
     most: float = math.inf
     choices: tuple[str, ...] = ()
     may_be_empty: bool = False
+    is_frame: bool = False
 
     @property
     def holds_strings(self) -> bool:
@@ -139,7 +142,7 @@ def _parameters() -> tuple[ParameterSpec, ...]:
         ),
         spec('step_ticks', 1, 'ticks that ~/step advances', now, 1, 1000),
         spec('publish_rate', 60, 'frames per second of sim time', least=1, most=1000),
-        spec('frame_id', 'table', 'frame of all that is published'),
+        spec('frame_id', 'table', 'frame of all that is published', is_frame=True),
         spec('publish_clock', False, 'whether to publish /clock'),
         spec('start_paused', False, 'whether to start paused'),
         spec(

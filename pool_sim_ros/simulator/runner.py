@@ -110,11 +110,11 @@ class Runner:
             self._computed.notify_all()
             return bool(preempted)
 
-    def place(self, positions: NDArray[np.float64]) -> str | None:
-        """Put the balls at (k, 2) positions in m; return why this cannot be, or None."""
+    def place(self, positions: NDArray[np.float64], frame_id: str = '') -> str | None:
+        """Put the balls at (k, 2) positions in m in a frame; return why this cannot be, or None."""
         with self._lock:
             self._last_request = time.monotonic()
-            refusal = self._simulation.place(positions)
+            refusal = self._simulation.place(positions, frame_id)
             if refusal is not None:
                 self._health.rejected(f'set_ball_poses: {refusal}')
             return refusal

@@ -16,6 +16,9 @@ _BALL_FIELDS = dict(
 )
 """Field of `Ball` for each of the parameters ``balls.*``."""
 
+MESSAGE_LENGTH = 400
+"""Characters of a message: it may name labels, and those may have any length."""
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -65,7 +68,7 @@ def build_settings(values: Mapping[str, Any]) -> Settings:
     except ParameterError:
         raise
     except ValueError as error:
-        raise ParameterError(str(error)) from error
+        raise ParameterError(str(error)[:MESSAGE_LENGTH]) from error
 
 
 def values_of(settings: Settings) -> dict[str, ParameterValue]:

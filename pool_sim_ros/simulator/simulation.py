@@ -26,6 +26,9 @@ from pool_sim_ros.simulator.shot_request import (
     twist_request,
 )
 
+FRAME_LENGTH = 60
+"""Characters of a frame that a message shows: anybody may have sent it."""
+
 
 @dataclass(eq=False, slots=True)
 class _Shot:
@@ -179,20 +182,24 @@ class Simulation:
             return []
         return [self._preempt(self._shot, Code.RESET, 'the table was reset', start_time)]
 
-    def place(self, positions: NDArray[np.float64]) -> str | None:
+    def place(self, positions: NDArray[np.float64], frame_id: str = '') -> str | None:
         """Put all balls elsewhere.
 
         Parameters
         ----------
         positions : ndarray of shape (k, 2)
             In the order of the balls, m.
+        frame_id : str, optional
+            The frame that they are in; empty stands for the parameter `frame_id`.
 
         Returns
         -------
         str or None
             Why this cannot be, and nothing has changed; None where it was done.
         """
-        table = self.settings.table
+        table, own_frame = self.settings.table, self.settings.frame_id
+        if frame_id not in ('', own_frame):
+            return f'the frame is {frame_id[:FRAME_LENGTH]!r}; it must be {own_frame!r}, or empty'
         if len(positions) != len(table.balls):
             return f'{len(positions)} positions; the table has {len(table.balls)} balls'
         if not self.at_rest:

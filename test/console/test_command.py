@@ -132,3 +132,28 @@ def test_an_interrupt_while_modules_are_loaded_is_told_like_any_other(tmp_path):
     )
     done = subprocess.run([sys.executable, '-c', code], capture_output=True, timeout=60, text=True)
     assert (done.returncode, done.stderr) == (INTERRUPTED, 'play_it: given up\n')
+
+
+INTERRUPTED_HALFWAY = """
+import pool_sim_ros.console as console
+
+class Half:
+    def __init__(self):
+        raise KeyboardInterrupt
+    def __del__(self):
+        self.never_made.close()
+
+@console.console_command('play_it')
+def main(args):
+    Half()
+
+raise SystemExit(main([]))
+"""
+
+
+def test_what_was_interrupted_while_it_was_made_does_not_complain_when_it_goes():
+    """An executor of rclpy does; `KeyboardInterrupt` holds it until it is dealt with."""
+    ended = subprocess.run(
+        [sys.executable, '-c', INTERRUPTED_HALFWAY], capture_output=True, text=True, timeout=60
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, '', '')

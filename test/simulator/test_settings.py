@@ -3,6 +3,7 @@ from dataclasses import replace
 import pytest
 
 from pool_sim_ros.physics import report_table
+from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.parameter_values import ParameterError, values_from
 from pool_sim_ros.simulator.settings import build_settings, values_of
 
@@ -76,3 +77,12 @@ def test_the_settings_are_those_of_the_print_with_the_report_table_integrator_an
     ):
         assert len(replace(report, **{name: value}).deviations) == 1
     assert replace(report, integrator='time_slice').deviations == []
+
+
+def test_a_message_is_short_however_long_the_labels_are():
+    values = default_values()
+    values['balls.labels'] = [f'{k}' + 'x' * 100_000 for k in range(11)]
+    values['balls.positions'] = [0.5] * 22
+    with pytest.raises(ParameterError, match=r"ball '0x+") as error:
+        build_settings(values)
+    assert len(str(error.value)) < 500

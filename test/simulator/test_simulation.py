@@ -302,6 +302,18 @@ def test_what_is_no_layout_changes_nothing(simulation):
     assert np.array_equal(frame.positions, positions)
 
 
+@pytest.mark.parametrize(
+    'frame_id', ['map', '/table', 'Table', 'table ', 'x' * 1_000_000], ids=range(5)
+)
+def test_balls_are_not_placed_in_a_frame_of_others(simulation, frame_id):
+    positions = report_table().positions * [1.0, 0.98]
+    refusal = simulation.place(positions, frame_id)
+    assert repr(frame_id[:50])[:-1] in refusal and "must be 'table', or empty" in refusal
+    assert len(refusal) < 200
+    for own in ('table', ''):
+        assert simulation.place(positions, own) is None
+
+
 def test_balls_are_not_placed_while_a_shot_is_in_hand(simulation):
     positions = report_table().positions * [1.0, 0.98]
     _, job = simulation.request('1')
