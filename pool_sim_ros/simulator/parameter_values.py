@@ -95,7 +95,11 @@ def _coerce_string(spec: ParameterSpec, value: object) -> str:
 def _coerce_number(spec: ParameterSpec, value: object) -> float:
     whole = isinstance(spec.default, int)
     wanted = f'{"a whole number" if whole else "a number"} from {spec.least:g} to {spec.most:g}'
+    if spec.smallest:
+        wanted += f' (0, or at least {spec.smallest:g})'
     if not (_is_number(value) and spec.least <= value <= spec.most):
+        raise _wrong(spec.name, wanted, value)
+    if 0.0 < value < spec.smallest:
         raise _wrong(spec.name, wanted, value)
     if not whole:
         return float(value)

@@ -19,7 +19,7 @@ from geometry_msgs.msg import Twist, Vector3
 from process_harness import Process, node_process
 from ros_harness import Observer, Ros
 from std_msgs.msg import String
-from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
+from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed, resident
 
 from pool_sim_ros.ros import interface
 
@@ -219,8 +219,3 @@ def test_soak_an_hour_of_sim_time_takes_no_more_memory(ros, capsys):
 
 class HourObserver(Observer):
     TOPICS = (interface.SHOT_RESPONSE, interface.STATE, interface.TABLE)
-
-
-def resident(process):
-    pages = int(Path(f'/proc/{process._popen.pid}/statm').read_text().split()[1])
-    return pages * os.sysconf('SC_PAGE_SIZE')

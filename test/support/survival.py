@@ -1,5 +1,8 @@
 """Attack a node, and see whether it still plays as printed."""
 
+import os
+from pathlib import Path
+
 from pool_sim_ros.me212.log import published_final_positions
 from pool_sim_ros.ros import interface
 
@@ -32,6 +35,12 @@ class Attacker:
             assert 'cannot publish data' in str(error)
             return False
         return True
+
+
+def resident(process):
+    """Return the memory that a process has, in bytes."""
+    pages = int(Path(f'/proc/{process._popen.pid}/statm').read_text().split()[1])
+    return pages * os.sysconf('SC_PAGE_SIZE')
 
 
 def plays_as_printed(observer):
