@@ -13,8 +13,7 @@ import pytest
 from fuzzing import SERVICES, Fuzzer, garbage_sender
 from process_harness import node_process
 from rclpy.parameter import Parameter
-from ros_harness import Observer
-from survival import FAST, is_served, plays_as_printed, resident
+from survival import FAST, Listener, is_served, plays_as_printed, resident
 
 from pool_sim_ros.physics import report_table
 from pool_sim_ros.ros import interface
@@ -24,17 +23,6 @@ SHORT = 10.0  # s
 CHECK_PERIOD = 2.0  # s
 MOST_GROWTH = 500 * 2**20
 """Bytes that a node may grow by: a shot of 100,000 events and some commands of 8 MB have room."""
-
-
-class Listener(Observer):
-    """Hears the little that the checks need."""
-
-    TOPICS = (interface.SHOT_RESPONSE, interface.STATE, interface.TABLE)
-
-    def forget(self):
-        self.responses.clear()
-        for heard in self.heard.values():
-            del heard[:-1]
 
 
 def put_back(observer):
@@ -74,6 +62,7 @@ def fuzz(ros, seconds, seed, garbage):
             assert most < MOST_GROWTH, f'grew by {most / 2**20:.0f} MiB'
         if sender is not None:
             ros.spin_until(lambda: sender.poll() is not None, 'the end of the garbage')
+        fuzzer.close()
         put_back(observer)
         plays_as_printed(Listener(ros).wait_for_match())
         lines = process.stderr.count('\n')

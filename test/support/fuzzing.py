@@ -24,6 +24,7 @@ from rcl_interfaces.srv import (
 )
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
+from ros_harness import Ros
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64MultiArray, Header, String
 from std_srvs.srv import Empty, SetBool, Trigger
@@ -102,8 +103,8 @@ class Fuzzer:
         self.done = Counter()
         self._ros, self._choose, self._balls = ros, random.Random(seed), balls
         self._node = ros.node('fuzzer')
-        self._publishers = {topic: self._publisher(topic) for topic in COMMANDS}
-        self._raw = {topic: self._publisher(topic) for topic in COMMANDS}
+        self._publishers = {topic.name: self._publisher(topic) for topic in COMMANDS}
+        self._raw = {topic.name: self._publisher(topic) for topic in COMMANDS}
         self._clock = self._node.create_publisher(Clock, '/clock', 1)
         self._clients = {
             name: self._node.create_client(kind, f'pool_sim/{name}')
@@ -151,16 +152,16 @@ class Fuzzer:
         return time.monotonic() - start
 
     def twist(self):
-        self._publishers[interface.CUE_VELOCITY].publish(
+        self._publishers[interface.CUE_VELOCITY.name].publish(
             Twist(linear=Vector3(x=self._speed(), y=self._speed(), z=self._seldom()),
                   angular=Vector3(z=self._seldom()))
         )  # fmt: skip
 
     def request(self):
-        self._publishers[interface.SHOT_REQUEST].publish(String(data=self._request()))
+        self._publishers[interface.SHOT_REQUEST.name].publish(String(data=self._request()))
 
     def layout(self):
-        self._publishers[interface.SET_BALL_POSES].publish(self._poses())
+        self._publishers[interface.SET_BALL_POSES.name].publish(self._poses())
 
     def garbage(self):
         """Bytes under the right type that are a message, cut, grown or changed, or none at all."""
@@ -230,27 +231,33 @@ class Fuzzer:
         self._clock.publish(message)
 
     def stranger(self):
-        """Endpoints of the right name and another type, or another QoS; they leave again later."""
-        while len(self._guests) > 6:
-            destroy, guest = self._guests.pop(0)
-            destroy(guest)
+        """Peers with the right name and another type, or another QoS; each leaves again later.
+
+        Each is a participant of its own: in one, a topic has one type.
+        """
+        while len(self._guests) > 2:
+            self._guests.pop(0).__exit__()
+        self._guests.append(Ros(self._ros.domain).__enter__())
+        node = self._guests[-1].node('stranger')
         best_effort = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
         name = f'pool_sim/{self._choose.choice(COMMANDS).name}'
         kind = self._choose.choice((Float64MultiArray, Header, String, Twist, PoseArray))
-        publisher = self._node.create_publisher(kind, name, self._choose.choice((10, best_effort)))
+        publisher = node.create_publisher(kind, name, self._choose.choice((10, best_effort)))
         publisher.publish(kind())
-        self._guests.append((self._node.destroy_publisher, publisher))
-        service = self._choose.choice(list(SERVICES))
         kind = self._choose.choice((Empty, SetBool, Trigger, GetParameters))
-        client = self._node.create_client(kind, f'pool_sim/{service}')
+        client = node.create_client(kind, f'pool_sim/{self._choose.choice(list(SERVICES))}')
         client.call_async(kind.Request())
-        self._guests.append((self._node.destroy_client, client))
 
     def pose_as_the_node(self):
         topic = self._choose.choice(OUTPUTS)
         publisher = self._publisher(topic)
         publisher.publish(topic.type())
-        self._guests.append((self._node.destroy_publisher, publisher))
+        self._node.destroy_publisher(publisher)
+
+    def close(self):
+        """Let all strangers leave."""
+        while self._guests:
+            self._guests.pop().__exit__()
 
     def burst(self):
         kind = self._choose.choice(('strikes', 'resets', 'requests'))
@@ -266,12 +273,12 @@ class Fuzzer:
 
     def _send_raw(self, topic, data):
         try:
-            self._raw[topic].publish(data)
+            self._raw[topic.name].publish(data)
         except Exception as error:
             assert 'cannot publish data' in str(error)
         if not data:  # DDS serves one no more that has sent an empty message
-            self._node.destroy_publisher(self._raw[topic])
-            self._raw[topic] = self._publisher(topic)
+            self._node.destroy_publisher(self._raw[topic.name])
+            self._raw[topic.name] = self._publisher(topic)
 
     def _call(self, name, request):
         futures = self._answers[name]
