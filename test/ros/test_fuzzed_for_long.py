@@ -52,7 +52,7 @@ def fuzz(ros, seconds, seed, garbage):
                 fuzzer.act()
                 ros.executor.spin_once(0.0)
             asked = time.monotonic()
-            fuzzer.wait_for_answers()
+            fuzzer.all_answer()
             is_served(observer)
             slowest, rounds = max(slowest, time.monotonic() - asked), rounds + 1
             for response in observer.responses:
@@ -66,9 +66,11 @@ def fuzz(ros, seconds, seed, garbage):
         put_back(observer)
         plays_as_printed(Listener(ros).wait_for_match())
         lines = process.stderr.count('\n')
+        assert garbage or not fuzzer.lost, f'{fuzzer.lost} calls were not answered'
     return (
         f'{seconds:g} s, seed {seed}: {sum(fuzzer.done.values())} actions {dict(fuzzer.done)}, '
-        f'{senders} senders of garbage; {rounds} checks, the slowest took {slowest:.2f} s; '
+        f'{fuzzer.lost} calls lost, {senders} senders of garbage; {rounds} checks, the slowest '
+        f'took {slowest:.2f} s; '
         f'at most {most / 2**20:.0f} MiB more than at the start; {lines} lines of log; it plays on'
     )
 
