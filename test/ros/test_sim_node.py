@@ -1,6 +1,7 @@
 """The node in this process: what the topics, services and parameters do."""
 
 import json
+import threading
 import uuid
 
 import numpy as np
@@ -17,6 +18,7 @@ from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.sim_node import SimNode
 from pool_sim_ros.simulator import ParameterError
+from pool_sim_ros.simulator.job import Job
 from pool_sim_ros.simulator.table_json import table_from_json
 
 FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
@@ -211,6 +213,31 @@ def test_pause_step_and_resume(ros):
     assert observer.wait_for_phase(shot, 'done')['t_start'] == 0.0
     answer = observer.call(interface.STEP)
     assert not answer.success and 'paused' in answer.message
+
+
+def test_steps_that_wait_for_a_shot_keep_nobody_waiting(ros, monkeypatch):
+    go_on = threading.Event()
+    run = Job.run
+
+    def wait_and_run(job):
+        assert go_on.wait(PATIENCE)
+        return run(job)
+
+    monkeypatch.setattr(Job, 'run', wait_and_run)
+    node = ros.sim_node(**FAST, start_paused=True)
+    observer = Observer(ros).wait_for_match()
+    shot = observer.ask(shot=1)
+    observer.wait_for_phase(shot, 'accepted')
+    client = observer.node.create_client(interface.STEP.type, interface.STEP.of('pool_sim'))
+    ros.spin_until(client.service_is_ready, 'the service')
+    steps = [client.call_async(interface.STEP.type.Request()) for _ in range(3)]
+    is_served(observer)
+    assert observer.call(interface.SET_PAUSED, data=True).success
+    [result] = node.set_parameters([Parameter('step_ticks', value=2)])
+    assert result.successful and not any(step.done() for step in steps)
+    go_on.set()
+    ros.spin_until(lambda: all(step.done() for step in steps), 'the steps')
+    assert [step.result().message for step in steps] == [f'at tick {tick}' for tick in (1, 3, 5)]
 
 
 def test_two_tables_do_not_hear_each_other(ros):
