@@ -49,10 +49,13 @@ def exceptions_told(what: str, context: Context, log: RcutilsLogger) -> Iterator
         raise
     except Exception:
         if context.ok():
-            log.error(
-                f'{what} failed, and the node goes on:\n{traceback.format_exc()}',
-                throttle_duration_sec=TELL_PERIOD,
-            )
+            text = f'{what} failed, and the node goes on:\n{traceback.format_exc()}'
+            log.error(encodable(text), throttle_duration_sec=TELL_PERIOD)
+
+
+def encodable(text: str) -> str:
+    """Return a text that the log can write: a peer may send half of a surrogate pair."""
+    return text.encode(errors='backslashreplace').decode()
 
 
 class GuardedNode(Node):
@@ -95,7 +98,7 @@ class GuardedNode(Node):
 
     def warn(self, line: str) -> None:
         """Write to the log what a peer did wrong, but not too often."""
-        self.get_logger().warn(line, throttle_duration_sec=LOG_PERIOD)
+        self.get_logger().warn(encodable(line), throttle_duration_sec=LOG_PERIOD)
 
     def _guarded(self, what: str, callback: Callback, service: Any = None) -> Callback:
         """Return a callback that raises nothing; of this type of service, or of none."""

@@ -99,4 +99,4 @@ def why_unreadable(parameter: ParameterMessage) -> str:
     kind = parameter.value.type
     if kind in TYPES:
         return ''
-    return f'{parameter.name[:60]}: there is no type {kind} of a value; use 0 to {max(TYPES)}'
+    return f'{parameter.name[:60]!r} has a value of type {kind}; the types are 0 to {max(TYPES)}'

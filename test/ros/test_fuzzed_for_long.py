@@ -52,9 +52,9 @@ def fuzz(ros, seconds, seed, garbage):
                 fuzzer.act()
                 ros.executor.spin_once(0.0)
             asked = time.monotonic()
-            fuzzer.all_answer()
             is_served(observer)
             slowest, rounds = max(slowest, time.monotonic() - asked), rounds + 1
+            fuzzer.all_answer()
             for response in observer.responses:
                 fuzzer.heard(response)
             observer.forget()
@@ -70,7 +70,7 @@ def fuzz(ros, seconds, seed, garbage):
     return (
         f'{seconds:g} s, seed {seed}: {sum(fuzzer.done.values())} actions {dict(fuzzer.done)}, '
         f'{fuzzer.lost} calls lost, {senders} senders of garbage; {rounds} checks, the slowest '
-        f'took {slowest:.2f} s; '
+        f'answer to a request after {slowest:.2f} s; '
         f'at most {most / 2**20:.0f} MiB more than at the start; {lines} lines of log; it plays on'
     )
 

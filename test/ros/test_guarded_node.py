@@ -115,6 +115,14 @@ def test_a_coroutine_goes_on_to_be_one(ros, node):
     assert asyncio.run(node._guarded('doubling', double)(4)) == 8
 
 
+def test_what_no_log_can_write_is_written_all_the_same(ros, node, capfd):
+    with exceptions_told('words', ros.context, node.get_logger()):
+        raise ValueError('half of a pair: \ud800')
+    node.warn('another half: \udfff')
+    logged = capfd.readouterr().err
+    assert '\\ud800' in logged and '\\udfff' in logged
+
+
 def test_warnings_are_throttled(ros, node, capfd):
     for _ in range(50):
         node.warn('a peer did this')
