@@ -15,8 +15,8 @@ from process_harness import Process
 from waiting import PATIENCE
 
 CONFIG = Path(__file__).resolve().parents[2] / 'config'
-SEARCH = 5.0
-"""Seconds for which one looks for a node that does not let it in; one that is let in takes two."""
+SEARCH = 3.0
+"""Seconds for which one looks for a node that does not let it in; one that is let in takes one."""
 
 FAST = {'report_integrator': 'event', 'real_time_factor': '20.0'}
 
