@@ -113,6 +113,10 @@ enable_logger_service
         super().destroy_node()
 
     def _read_commands(self, balls: int) -> None:
+        def too_many(data: bytes) -> str | None:
+            count = commands.count_poses(data)
+            return None if count is None else f'{count} positions; the table has {balls} balls'
+
         strike, request, layout = (
             (interface.CUE_VELOCITY, commands.TWIST_BYTES),
             (interface.SHOT_REQUEST, commands.REQUEST_BYTES),
@@ -120,16 +124,16 @@ enable_logger_service
         )
         self._subscribe(*strike, self._on_cue_velocity, self._refuse_request)
         self._subscribe(*request, self._on_shot_request, self._refuse_request)
-        self._subscribe(*layout, self._on_set_ball_poses, self._refuse_layout)
+        self._subscribe(*layout, self._on_set_ball_poses, self._refuse_layout, too_many)
 
     def _subscribe(
         self,
         topic: interface.Topic,
         most: int,
         take: Callable[[Any], None],
-        refuse: Callable[[str], None],
+        *refuse: Callable[[Any], Any],
     ) -> None:
-        read = commands.reader(topic.type, most, take, refuse)
+        read = commands.reader(topic.type, most, take, *refuse)
         self.create_subscription(topic.type, topic.private, read, topic.qos, raw=True)
 
     def _serve(self, service: interface.Service, callback: Callable[..., object]) -> None:

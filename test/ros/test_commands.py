@@ -3,7 +3,7 @@
 import pytest
 from geometry_msgs.msg import Pose, PoseArray, Twist, Vector3
 from rclpy.serialization import serialize_message
-from std_msgs.msg import String
+from std_msgs.msg import Header, String
 
 from pool_sim_ros.ros import commands
 from pool_sim_ros.simulator import MAX_REQUEST_LENGTH
@@ -66,3 +66,21 @@ def test_a_length_that_lies_is_refused(read):
             lying[place : place + 4] = lie.to_bytes(4, 'little')
             what, found = read(PoseArray, 10_000, bytes(lying))
             assert what == 'refused' or len(found.poses) <= 3
+
+
+@pytest.mark.parametrize('count', [1, 11, 5000])
+@pytest.mark.parametrize('frame_id', ['', 'a', 'map', 'table', 'x' * 1001])
+def test_the_poses_are_counted_in_the_bytes(count, frame_id):
+    message = PoseArray(header=Header(frame_id=frame_id), poses=[Pose()] * count)
+    data = serialize_message(message)
+    assert commands.count_poses(data) == count
+    for other in (data[:-1], data + b'\0', b'', data[:10], b'\xff' * 100):
+        assert commands.count_poses(other) is None
+
+
+def test_bytes_that_are_too_many_are_described(read):
+    heard = []
+    commands.reader(PoseArray, 100, print, heard.append, lambda data: f'{len(data)} of them')(
+        bytes(101)
+    )
+    assert heard == ['101 of them']
