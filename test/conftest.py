@@ -52,6 +52,12 @@ def pytest_pycollect_makemodule(module_path, parent):
     return TestModule.from_parent(parent, path=module_path)
 
 
+def pytest_addoption(parser):
+    """How long, and how, the soak test of a node under fire goes on."""
+    parser.addoption('--fuzz-seconds', type=float, default=600.0, help='default: 600')
+    parser.addoption('--fuzz-seed', type=int, default=1, help='of what is done; default: 1')
+
+
 def pytest_collection_modifyitems(config, items):
     """Leave out what takes minutes, unless -m names it."""
     if 'soak' not in config.option.markexpr:

@@ -48,16 +48,19 @@ def _endpoints() -> list[str]:
 @ros_command('sim_node', _parser)
 def main(context: Context, _: argparse.Namespace) -> int:
     """Run the node; return 1 if one of its threads failed."""
-    from rclpy.executors import SingleThreadedExecutor
-
-    from pool_sim_ros.ros import SimNode, leave_at_once, shut_down_on_signals
+    from pool_sim_ros.ros import (
+        LastingExecutor,
+        SimNode,
+        leave_at_once,
+        shut_down_on_signals,
+    )
     from pool_sim_ros.simulator import ParameterError
 
     shut_down_on_signals(context)
     node = None
     try:
         node = SimNode(context=context)
-        executor = SingleThreadedExecutor(context=context)
+        executor = LastingExecutor(context)
         executor.add_node(node)
         executor.spin()
     except ParameterError as error:

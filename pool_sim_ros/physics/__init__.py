@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
-    from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
+    from pool_sim_ros.physics.outcomes import Outcomes, ShotCancelled, ShotTooLong
     from pool_sim_ros.physics.racks import RackKind, rack
     from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
@@ -46,6 +46,7 @@ else:
             'INTEGRATORS': 'integrators',
             'Integrator': 'integrators',
             'Outcomes': 'outcomes',
+            'ShotCancelled': 'outcomes',
             'ShotTooLong': 'outcomes',
             'REPORT_TIME_SLICE': 'integrators',
             'Table': 'table',
@@ -84,6 +85,7 @@ __all__ = [
     'Integrator',
     'Outcomes',
     'RackKind',
+    'ShotCancelled',
     'ShotTooLong',
     'Table',
     'Trajectory',

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.ros.command import ros_command
     from pool_sim_ros.ros.digest import digests
     from pool_sim_ros.ros.environment import check_environment
+    from pool_sim_ros.ros.lasting_executor import LastingExecutor
     from pool_sim_ros.ros.mcap import write_bag
     from pool_sim_ros.ros.names import NODE_NAME, node_name
     from pool_sim_ros.ros.process import init_ros, leave_at_once, shut_down_on_signals
@@ -28,6 +29,7 @@ else:
     __getattr__ = lazy_exports(
         __name__,
         {
+            'LastingExecutor': 'lasting_executor',
             'NODE_NAME': 'names',
             'Publishers': 'publishers',
             'Recorder': 'recorder',
@@ -49,6 +51,7 @@ else:
     )
 
 __all__ = [
+    'LastingExecutor',
     'NODE_NAME',
     'Publishers',
     'Recorder',

@@ -59,6 +59,8 @@ def describe(spec: ParameterSpec) -> ParameterDescriptor:
         additional_constraints=' or '.join(spec.choices),
     )
     if isinstance(spec.default, float):
+        if spec.smallest:
+            descriptor.additional_constraints = f'0, or at least {spec.smallest:g}'
         bounds = FloatingPointRange(from_value=float(spec.least), to_value=float(spec.most))
         descriptor.floating_point_range = [bounds]
     elif isinstance(spec.default, int) and not isinstance(spec.default, bool):

@@ -29,7 +29,14 @@ if TYPE_CHECKING:
     from pool_sim_ros.simulator.replay import replay_frames
     from pool_sim_ros.simulator.runner import Runner
     from pool_sim_ros.simulator.settings import Settings, build_settings
-    from pool_sim_ros.simulator.shot_request import Code, Phase, Response, parse_request
+    from pool_sim_ros.simulator.shot_request import (
+        MAX_REQUEST_LENGTH,
+        Code,
+        Phase,
+        Response,
+        parse_request,
+        unreadable_request,
+    )
     from pool_sim_ros.simulator.sim_time import (
         NANOSECOND,
         SECOND_NS,
@@ -37,6 +44,7 @@ if TYPE_CHECKING:
         stamp_to_seconds,
     )
     from pool_sim_ros.simulator.simulation import Simulation
+    from pool_sim_ros.simulator.steps import Stepped
     from pool_sim_ros.simulator.table_json import table_from_json, table_to_json
 else:
     __getattr__ = lazy_exports(
@@ -51,6 +59,7 @@ else:
             'FileError': 'bounded_file',
             'Frame': 'frame',
             'LogError': 'command_log',
+            'MAX_REQUEST_LENGTH': 'shot_request',
             'NANOSECOND': 'sim_time',
             'Output': 'output',
             'PARAMETERS': 'parameter_table',
@@ -63,6 +72,7 @@ else:
             'SECOND_NS': 'sim_time',
             'Settings': 'settings',
             'Simulation': 'simulation',
+            'Stepped': 'steps',
             'VELOCITY_COLUMNS': 'frame',
             'build_settings': 'settings',
             'coerce': 'parameter_values',
@@ -79,6 +89,7 @@ else:
             'state_from_json': 'heard',
             'table_from_json': 'table_json',
             'table_to_json': 'table_json',
+            'unreadable_request': 'shot_request',
             'values_from': 'parameter_values',
         },
     )
@@ -93,6 +104,7 @@ __all__ = [
     'FileError',
     'Frame',
     'LogError',
+    'MAX_REQUEST_LENGTH',
     'NANOSECOND',
     'Output',
     'PARAMETERS',
@@ -105,6 +117,7 @@ __all__ = [
     'SECOND_NS',
     'Settings',
     'Simulation',
+    'Stepped',
     'VELOCITY_COLUMNS',
     'build_settings',
     'coerce',
@@ -121,5 +134,6 @@ __all__ = [
     'state_from_json',
     'table_from_json',
     'table_to_json',
+    'unreadable_request',
     'values_from',
 ]

@@ -111,8 +111,12 @@ def _coerce_string(spec: ParameterSpec, value: object) -> str:
 def _coerce_number(spec: ParameterSpec, value: object) -> float:
     whole = isinstance(spec.default, int)
     wanted = f'{"a whole number" if whole else "a number"} from {spec.least:g} to {spec.most:g}'
+    if spec.smallest:
+        wanted += f' (0, or at least {spec.smallest:g})'
     number = _read_number(value)
     if not (_is_number(number) and spec.least <= number <= spec.most):
+        raise _wrong(spec.name, wanted, value)
+    if 0.0 < number < spec.smallest:
         raise _wrong(spec.name, wanted, value)
     if not whole:
         return float(number)

@@ -14,7 +14,7 @@ from pool_sim_ros.physics import ShotTooLong, Trajectory, check_layout
 from pool_sim_ros.simulator import responses
 from pool_sim_ros.simulator.command_log import CommandLog
 from pool_sim_ros.simulator.frame import Block, Frame
-from pool_sim_ros.simulator.job import Job, make_job
+from pool_sim_ros.simulator.job import MOST_SLICES, Job, make_job
 from pool_sim_ros.simulator.playback import Motion, Playback
 from pool_sim_ros.simulator.request_history import RequestHistory
 from pool_sim_ros.simulator.settings import Settings
@@ -35,6 +35,7 @@ class _Shot:
     """The shot in hand: from its acceptance until all balls rest, or until it is preempted."""
 
     request_id: str
+    content: str
     response: Response
     job: Job
     settings: Settings
@@ -141,7 +142,10 @@ class Simulation:
             request = replace(request, id=request_id)
         else:
             request_id = request.id
-            known = self._history.find(request_id)
+            if self._history.is_made(request_id):
+                reason = f'ids that begin with {self._history.prefix} are made here; choose another'
+                return responses.rejected(request, Code.BAD_REQUEST, reason), None
+            known = self._find(request_id)
             if known is not None:
                 return responses.repeated(request, *known), None
         job = None
@@ -149,10 +153,11 @@ class Simulation:
             response = responses.rejected(request, request.code, request.reason)
         else:
             response, job = self._consider(request)
-        self._history.add(request_id, request.content, response)
-        if job is not None:
+        if job is None:
+            self._history.add(request_id, request.content, response)
+        else:
             self._playback.strike()
-            self._shot = _Shot(request_id, response, job, self.settings)
+            self._shot = _Shot(request_id, request.content, response, job, self.settings)
         return response, job
 
     def computed(self, job: Job, result: Trajectory | Exception) -> list[Response]:
@@ -168,6 +173,8 @@ class Simulation:
         if not result.complete:
             self._playback.abandon()
             limit = f'max_shot_duration, {job.until:g} s'
+            if job.until < shot.settings.max_shot_duration:
+                limit = f'{MOST_SLICES:g} slices of time_slice, {job.until:g} s'
             reason = f'the balls would move for longer than {limit}'
             return [self._preempt(shot, Code.TOO_LONG, reason)]
         shot.trajectory = result
@@ -230,7 +237,9 @@ class Simulation:
         return frame, [self._done(shot)] if shot is not None and frame.finished else []
 
     def close(self) -> None:
-        """End the log."""
+        """End the log, and give up the shot that is being computed."""
+        if self._shot is not None:
+            self._shot.job.cancel()
         if self._log is not None:
             self._log.close(self.next_tick)
             self._log = None
@@ -251,6 +260,13 @@ class Simulation:
         if frame.started and self._shot is not None:
             shot = self._shot
             log.strike(frame.tick, shot.settings, shot.response.shot, shot.job.velocity)
+
+    def _find(self, request_id: str) -> tuple[str, Response] | None:
+        """Return the content and the latest response of a request that is known, or None."""
+        shot = self._shot
+        if shot is not None and shot.request_id == request_id:
+            return shot.content, shot.response
+        return self._history.find(request_id)
 
     def _consider(self, request: Request) -> tuple[Response, Job | None]:
         """Accept a readable request, or reject it."""
@@ -282,9 +298,10 @@ class Simulation:
     def _preempt(
         self, shot: _Shot, code: Code, reason: str, start_time: float | None = None
     ) -> Response:
+        shot.job.cancel()
         return self._end(shot, responses.preempted(shot.response, code, reason, start_time))
 
     def _end(self, shot: _Shot, response: Response) -> Response:
-        self._history.update(shot.request_id, response)
+        self._history.add(shot.request_id, shot.content, response)
         self._shot = None
         return response

@@ -3,7 +3,7 @@ from array import array
 
 import pytest
 
-from pool_sim_ros.simulator.parameter_table import default_values
+from pool_sim_ros.simulator.parameter_table import PARAMETERS, default_values
 from pool_sim_ros.simulator.parameter_values import (
     ParameterError,
     coerce,
@@ -71,6 +71,23 @@ def test_both_ends_of_a_range_are_inside():
                 ParameterError, match=f'{name} must be .* from {least:g} to {most:g}'
             ):
                 coerce(name, outside)
+
+
+@pytest.mark.parametrize('name', [name for name, spec in PARAMETERS.items() if spec.smallest])
+def test_a_range_that_begins_at_0_has_no_numbers_that_are_almost_0(name):
+    spec = PARAMETERS[name]
+    assert spec.least == 0.0 < spec.smallest
+    assert coerce(name, 0) == coerce(name, 0.0) == coerce(name, -0.0) == 0.0
+    assert coerce(name, spec.smallest) == spec.smallest
+    for tiny in (5e-324, 1e-311, 2.3e-308, 1e-200, math.nextafter(spec.smallest, 0.0)):
+        with pytest.raises(ParameterError, match=rf'{name} must be .*at least {spec.smallest:g}'):
+            coerce(name, tiny)
+
+
+def test_no_range_has_denormals():
+    for name, spec in PARAMETERS.items():
+        if isinstance(spec.default, float):
+            assert spec.least > 1e-9 or (spec.least == 0.0 and spec.smallest > 1e-9), name
 
 
 def test_a_long_value_is_cut_in_the_message():

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fakes import Recorder
-from waiting import wait_until
+from waiting import PATIENCE, wait_until
 
 from pool_sim_ros.ros.digest import digests
 from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
@@ -61,7 +61,7 @@ def varied_session(runner, output):
     runner.apply(SETTINGS)
     assert runner.place(ELSEWHERE * 1.001) is None
     response = runner.request('3')
-    runner.step()
+    assert runner.step().result(PATIENCE)[0]
     runner.set_paused(False)
     done(output, response)
     runner.reset()
@@ -117,7 +117,7 @@ def test_of_many_resets_in_a_tick_one_line_is_left(tmp_path):
         runner.set_paused(True)
         for _ in range(1000):
             runner.reset()
-        runner.step()
+        assert runner.step().result(PATIENCE)[0]
 
     record(log, SETTINGS, play)
     assert [command['command'] for command in read_log(log)[1]] == ['reset', 'end']
