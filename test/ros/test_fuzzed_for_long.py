@@ -62,6 +62,7 @@ def fuzz(ros, seconds, seed, garbage):
             assert most < MOST_GROWTH, f'grew by {most / 2**20:.0f} MiB'
         if sender is not None:
             ros.spin_until(lambda: sender.poll() is not None, 'the end of the garbage')
+        fuzzer.finish(observer)
         fuzzer.close()
         put_back(observer)
         plays_as_printed(Listener(ros).wait_for_match())

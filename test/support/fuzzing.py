@@ -262,8 +262,10 @@ class Fuzzer:
         kind = self._choose.choice((Float64MultiArray, Header, String, Twist, PoseArray))
         publisher = node.create_publisher(kind, name, self._choose.choice((10, best_effort)))
         publisher.publish(kind())
-        kind = self._choose.choice((Empty, SetBool, Trigger, GetParameters))
-        client = node.create_client(kind, f'pool_sim/{self._choose.choice(list(SERVICES))}')
+        service = self._choose.choice(list(SERVICES))
+        others = [k for k in (Empty, SetBool, Trigger, GetParameters) if k != SERVICES[service]]
+        kind = self._choose.choice(others)
+        client = node.create_client(kind, f'pool_sim/{service}')
         client.call_async(kind.Request())
 
     def pose_as_the_node(self):
@@ -271,6 +273,18 @@ class Fuzzer:
         publisher = self._publisher(topic)
         publisher.publish(topic.type())
         self._node.destroy_publisher(publisher)
+
+    def finish(self, observer):
+        """Wait until the node has read all commands: a strike among them may make it busy."""
+        self._publishers[interface.SHOT_REQUEST.name].publish(
+            String(data='{"id": "the end", "shot": 9}')
+        )
+        self._publishers[interface.CUE_VELOCITY.name].publish(Twist(linear=Vector3(z=7.25)))
+        observer.wait_for_phase('the end', 'rejected')
+        self._ros.spin_until(
+            lambda: any('7.25' in (r['reason'] or '') for r in observer.responses),
+            'the last strike',
+        )
 
     def close(self):
         """Let all strangers leave."""
