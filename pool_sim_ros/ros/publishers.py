@@ -16,8 +16,10 @@ from pool_sim_ros.simulator import (
     COLLISION_COLUMNS,
     VELOCITY_COLUMNS,
     Block,
+    Code,
     Diagnosis,
     Frame,
+    Phase,
     Response,
     Settings,
     table_to_json,
@@ -88,6 +90,12 @@ class Publishers:
         """Send responses."""
         for response in responses:
             self._response.publish(messages.to_string(response.to_json()))
+            # What a request got at once is told by whoever took it.
+            told = (
+                response.phase in (Phase.DONE, Phase.PREEMPTED) and response.code is not Code.RESET
+            )
+            if told and response.reason is not None:
+                self._node.get_logger().warn(f'{response.phase.value}: {response.reason}')
 
     def state(self, state: dict[str, object]) -> None:
         """Send the state."""

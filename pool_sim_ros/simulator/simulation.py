@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.me212 import cue_velocity
-from pool_sim_ros.physics import ShotTooLong, Trajectory, check_layout
+from pool_sim_ros.physics import ShotTooLong, Trajectory
 from pool_sim_ros.simulator import responses
 from pool_sim_ros.simulator.command_log import CommandLog
 from pool_sim_ros.simulator.frame import Block, Frame
 from pool_sim_ros.simulator.job import MOST_SLICES, Job, make_job
+from pool_sim_ros.simulator.next_layout import next_layout, why_refused
 from pool_sim_ros.simulator.playback import Motion, Playback
 from pool_sim_ros.simulator.request_history import RequestHistory
 from pool_sim_ros.simulator.settings import Settings
@@ -25,9 +26,6 @@ from pool_sim_ros.simulator.shot_request import (
     parse_request,
     twist_request,
 )
-
-FRAME_LENGTH = 60
-"""Characters of a frame that a message shows: anybody may have sent it."""
 
 
 @dataclass(eq=False, slots=True)
@@ -199,24 +197,14 @@ class Simulation:
         frame_id : str, optional
             The frame that they are in; empty stands for the parameter `frame_id`.
 
-        Returns
-        -------
-        str or None
-            Why this cannot be, and nothing has changed; None where it was done.
+        Returns why this cannot be, and nothing has changed, or None where it was done.
         """
-        table, own_frame = self.settings.table, self.settings.frame_id
-        if frame_id not in ('', own_frame):
-            return f'the frame is {frame_id[:FRAME_LENGTH]!r}; it must be {own_frame!r}, or empty'
-        if len(positions) != len(table.balls):
-            return f'{len(positions)} positions; the table has {len(table.balls)} balls'
-        if not self.at_rest:
-            return f'{self._occupation}; wait for done or reset'
-        try:
-            check_layout(table, positions)
-        except ValueError as error:
-            return str(error)
-        self._lay_out(np.array(positions))
-        return None
+        reason = why_refused(self.settings, positions, frame_id)
+        if reason is None and not self.at_rest:
+            reason = f'{self._occupation}; wait for done or reset'
+        if reason is None:
+            self._lay_out(np.array(positions))
+        return reason
 
     def look_ahead(self) -> Block:
         """Return what the next ticks show unless something comes between; nothing changes."""
@@ -292,8 +280,12 @@ class Simulation:
     def _done(self, shot: _Shot) -> Response:
         trajectory = shot.trajectory
         assert trajectory is not None, 'a shot that is played was computed'
-        labels, start_time = self.settings.table.labels, self._playback.start_time
-        return self._end(shot, responses.done(shot.response, trajectory, labels, start_time))
+        table, start_time = self.settings.table, self._playback.start_time
+        response = responses.done(shot.response, trajectory, table.labels, start_time)
+        layout, reason = next_layout(table, self._playback.positions, shot.job.positions)
+        if reason is not None:
+            self._lay_out(layout)
+        return self._end(shot, replace(response, reason=reason))
 
     def _preempt(
         self, shot: _Shot, code: Code, reason: str, start_time: float | None = None
