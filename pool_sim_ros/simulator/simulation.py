@@ -26,9 +26,6 @@ from pool_sim_ros.simulator.shot_request import (
     twist_request,
 )
 
-FRAME_LENGTH = 60
-"""Characters of a frame that a message shows: anybody may have sent it."""
-
 
 @dataclass(eq=False, slots=True)
 class _Shot:
@@ -42,17 +39,19 @@ class _Shot:
     trajectory: Trajectory | None = None
 
 
+Taken = tuple[Response, Job | None]
+
+
 class Simulation:
     """One table: takes requests, answers them, and plays the shots.
 
     It never waits: its owner computes the jobs that it hands out, and brings back the results.
-    At most one shot is in hand at a time.
+    At most one shot is in hand at a time. `settings` and `paused` are plain attributes.
 
     Parameters
     ----------
     settings : Settings
-        May be replaced at any time: `settings` is a plain attribute. What concerns a shot counts
-        from the next strike; the balls, the table's size and the rate must stay.
+        May be replaced at any time. What concerns a shot counts from the next strike.
     history : RequestHistory, optional
         Which request got which response.
     log : CommandLog, optional
@@ -60,7 +59,6 @@ class Simulation:
 
     Attributes
     ----------
-    settings : Settings
     paused : bool
         Whether its owner asks for no frames; it answers requests all the same.
     """
@@ -114,9 +112,7 @@ class Simulation:
         """Take a request as `~/shot/request` carries it; returns as `take` does."""
         return self.take(parse_request(text))
 
-    def strike(
-        self, linear: Sequence[float], angular: Sequence[float]
-    ) -> tuple[Response, Job | None]:
+    def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Taken:
         """Take a twist of the cue ball, (3,) m/s and (3,) rad/s; returns as `take` does."""
         return self.take(twist_request(linear, angular))
 
@@ -195,18 +191,16 @@ class Simulation:
         Parameters
         ----------
         positions : ndarray of shape (k, 2)
-            In the order of the balls, m.
-        frame_id : str, optional
-            The frame that they are in; empty stands for the parameter `frame_id`.
+            In the order of the balls, m, in the frame `frame_id`; empty is the node's.
 
         Returns
         -------
         str or None
             Why this cannot be, and nothing has changed; None where it was done.
         """
-        table, own_frame = self.settings.table, self.settings.frame_id
-        if frame_id not in ('', own_frame):
-            return f'the frame is {frame_id[:FRAME_LENGTH]!r}; it must be {own_frame!r}, or empty'
+        table = self.settings.table
+        if fault := self.settings.frame_fault(frame_id):
+            return fault
         if len(positions) != len(table.balls):
             return f'{len(positions)} positions; the table has {len(table.balls)} balls'
         if not self.at_rest:
