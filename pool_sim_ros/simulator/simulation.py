@@ -108,7 +108,7 @@ class Simulation:
         """Sim time of `tick`, ns."""
         return self._playback.stamp
 
-    def request(self, text: str) -> tuple[Response, Job | None]:
+    def request(self, text: str) -> Taken:
         """Take a request as `~/shot/request` carries it; returns as `take` does."""
         return self.take(parse_request(text))
 
@@ -117,12 +117,7 @@ class Simulation:
         return self.take(twist_request(linear, angular))
 
     def take(self, request: Request) -> tuple[Response, Job | None]:
-        """Take a request.
-
-        Parameters
-        ----------
-        request : Request
-            Without an id it gets one, unless it is unreadable.
+        """Take a request; without an id it gets one, unless it is unreadable.
 
         Returns
         -------
@@ -196,7 +191,7 @@ class Simulation:
         Returns
         -------
         str or None
-            Why this cannot be, and nothing has changed; None where it was done.
+            Why this cannot be, and nothing has changed.
         """
         table = self.settings.table
         if fault := self.settings.frame_fault(frame_id):
