@@ -67,6 +67,9 @@ MAX_PRESSES = STEADY_PRESSES + 64 * 4
 PRESS_MARGIN = 2.0
 """A pressed contact is weak that closes at most so many times as fast as it is to part."""
 
+PRESSED_SPEED = PRESS_MARGIN * 16.0 * V_MIN
+"""Speed in m/s up to which what is pressed may part, and still counts as pressed."""
+
 SETTLE_EVERY = 8
 """One in so many pressed contacts parts at V_ROUNDING: two balls may lie still by now."""
 

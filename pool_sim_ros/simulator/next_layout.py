@@ -8,15 +8,12 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics import Table, check_layout, separated
 from pool_sim_ros.simulator.settings import Settings
 
-FRAME_LENGTH = 60
-"""Characters of a frame that a message shows: anybody may have sent it."""
-
 
 def why_refused(settings: Settings, positions: NDArray[np.float64], frame_id: str) -> str | None:
     """Return why a layout, (k, 2) in m in the order of the balls, cannot be; None where it can."""
-    table, own_frame = settings.table, settings.frame_id
-    if frame_id not in ('', own_frame):
-        return f'the frame is {frame_id[:FRAME_LENGTH]!r}; it must be {own_frame!r}, or empty'
+    table = settings.table
+    if fault := settings.frame_fault(frame_id):
+        return fault
     if len(positions) != len(table.balls):
         return f'{len(positions)} positions; the table has {len(table.balls)} balls'
     try:

@@ -40,17 +40,19 @@ class _Shot:
     trajectory: Trajectory | None = None
 
 
+Taken = tuple[Response, Job | None]
+
+
 class Simulation:
     """One table: takes requests, answers them, and plays the shots.
 
     It never waits: its owner computes the jobs that it hands out, and brings back the results.
-    At most one shot is in hand at a time.
+    At most one shot is in hand at a time. `settings` and `paused` are plain attributes.
 
     Parameters
     ----------
     settings : Settings
-        May be replaced at any time: `settings` is a plain attribute. What concerns a shot counts
-        from the next strike; the balls, the table's size and the rate must stay.
+        May be replaced at any time. What concerns a shot counts from the next strike.
     history : RequestHistory, optional
         Which request got which response.
     log : CommandLog, optional
@@ -58,7 +60,6 @@ class Simulation:
 
     Attributes
     ----------
-    settings : Settings
     paused : bool
         Whether its owner asks for no frames; it answers requests all the same.
     """
@@ -108,23 +109,16 @@ class Simulation:
         """Sim time of `tick`, ns."""
         return self._playback.stamp
 
-    def request(self, text: str) -> tuple[Response, Job | None]:
+    def request(self, text: str) -> Taken:
         """Take a request as `~/shot/request` carries it; returns as `take` does."""
         return self.take(parse_request(text))
 
-    def strike(
-        self, linear: Sequence[float], angular: Sequence[float]
-    ) -> tuple[Response, Job | None]:
+    def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Taken:
         """Take a twist of the cue ball, (3,) m/s and (3,) rad/s; returns as `take` does."""
         return self.take(twist_request(linear, angular))
 
     def take(self, request: Request) -> tuple[Response, Job | None]:
-        """Take a request.
-
-        Parameters
-        ----------
-        request : Request
-            Without an id it gets one, unless it is unreadable.
+        """Take a request; without an id it gets one, unless it is unreadable.
 
         Returns
         -------
@@ -193,9 +187,7 @@ class Simulation:
         Parameters
         ----------
         positions : ndarray of shape (k, 2)
-            In the order of the balls, m.
-        frame_id : str, optional
-            The frame that they are in; empty stands for the parameter `frame_id`.
+            In the order of the balls, m, in the frame `frame_id`; empty is the node's.
 
         Returns why this cannot be, and nothing has changed, or None where it was done.
         """
