@@ -47,7 +47,7 @@ SETUP_FILES = setup.py setup.cfg pyproject.toml package.xml pool_sim_ros/__init_
 
 help:
 	@echo 'make demo    play the report'\''s four shots on a simulated table and compare with its log'
-	@echo 'make play    start the node and a page in the browser to play on it; Ctrl-C ends both'
+	@echo 'make play    start the node and a page in the browser to play on it; Ctrl-C ends both; PORT=8081 takes another port'
 	@echo 'make check   format, types, lint and imports: some seconds'
 	@echo 'make test    the checks and the test suite, with what it covers'
 	@echo 'make soak    what takes minutes: long runs of the node, two million shots looked at'
@@ -63,7 +63,7 @@ demo: $(INSTALLED)
 	@echo 'Now play on it yourself, with the mouse: make play'
 
 play: $(INSTALLED)
-	@$(PY) -m pool_sim_ros.cli.play
+	@$(PY) -m pool_sim_ros.cli.play $(if $(PORT),--port '$(PORT)')
 
 check: $(INSTALLED)
 	$(PY) -m ruff format --check .

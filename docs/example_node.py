@@ -8,6 +8,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
+PATIENCE = 30.0  # s
+
 
 class Shooter(Node):
     def __init__(self):
@@ -17,18 +19,24 @@ class Shooter(Node):
         self.create_subscription(String, 'pool_sim/shot/response', self.on_response, latched)
         self.id = uuid.uuid4().hex
         self.timer = self.create_timer(0.5, self.shoot)
+        self.create_timer(PATIENCE, self.give_up)
 
     def shoot(self):
-        if self.requests.get_subscription_count():  # somebody listens
-            self.timer.cancel()
-            request = {'id': self.id, 'velocity': [-2.0, 0.3]}
-            self.requests.publish(String(data=json.dumps(request)))
+        # Until it is answered: a request may be lost, and the simulator plays each id once.
+        request = {'id': self.id, 'velocity': [-2.0, 0.3]}
+        self.requests.publish(String(data=json.dumps(request)))
 
     def on_response(self, message):
+        if self.id not in message.data:
+            return  # somebody else's
+        self.timer.cancel()
         response = json.loads(message.data)
-        if response['id'] == self.id and response['phase'] != 'accepted':
+        if response['phase'] != 'accepted':
             print(response['phase'], response['reason'] or response['final_positions']['C'])
             raise SystemExit
+
+    def give_up(self):
+        raise SystemExit(f'the shot did not end within {PATIENCE:g} s; is pool_sim running?')
 
 
 rclpy.init()

@@ -17,12 +17,14 @@ def lazy_exports(package: str, modules: dict[str, str]) -> Callable[[str], objec
     package : str
         Its `__name__`.
     modules : dict of str
-        Exported name -> module below the package that defines it.
+        Exported name -> module below the package that defines it; a name that is the module's own
+        stands for the module.
     """
 
     def get(name: str) -> object:
         if name not in modules:
             raise AttributeError(f'module {package!r} has no attribute {name!r}')
-        return getattr(import_module(f'{package}.{modules[name]}'), name)
+        module = import_module(f'{package}.{modules[name]}')
+        return module if name == modules[name] else getattr(module, name)
 
     return get

@@ -18,6 +18,46 @@ os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
 os.environ['FASTDDS_BUILTIN_TRANSPORTS'] = 'UDPv4'
 
 
+OPTIONAL = {
+    *[
+        'aiohttp',
+        'catkin_pkg',
+        'cyclonedds',
+        'imageio_ffmpeg',
+        'latex2mathml',
+        'matplotlib',
+        'mcap',
+    ],
+    *['mpmath', 'packaging', 'playwright', 'rosbags', 'tqdm', 'yaml'],
+    *['diagnostic_msgs', 'geometry_msgs', 'rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'std_msgs'],
+    *['std_srvs', 'visualization_msgs', 'ament_index_python'],
+}
+"""Packages without which the other tests run: some have no apt package, and so no rosdep key."""
+
+
+class TestModule(pytest.Module):
+    """A test module that is skipped where an optional package which it imports is missing."""
+
+    def collect(self):
+        try:
+            return super().collect()
+        except self.CollectError as error:
+            name = getattr(error.__cause__, 'name', None) or ''
+            if name.partition('.')[0] in OPTIONAL:
+                pytest.skip(f'{name} is not installed here', allow_module_level=True)
+            raise
+
+
+def pytest_pycollect_makemodule(module_path, parent):
+    return TestModule.from_parent(parent, path=module_path)
+
+
+def pytest_addoption(parser):
+    """How long, and how, the soak test of a node under fire goes on."""
+    parser.addoption('--fuzz-seconds', type=float, default=600.0, help='default: 600')
+    parser.addoption('--fuzz-seed', type=int, default=1, help='of what is done; default: 1')
+
+
 def pytest_collection_modifyitems(config, items):
     """Leave out what takes minutes, unless -m names it."""
     if 'soak' not in config.option.markexpr:

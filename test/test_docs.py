@@ -7,12 +7,13 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from xml.etree import ElementTree
 
 import pytest
-from process_harness import node_process
+from process_harness import Process, node_process
+from ros_harness import spinning
+from waiting import PATIENCE, wait_until
 
-from pool_sim_ros.ros import interface
+from pool_sim_ros.ros import interface, messages
 
 PROJECT = Path(__file__).parents[1]
 EXAMPLE = PROJECT / 'docs' / 'example_node.py'
@@ -27,6 +28,47 @@ def test_the_example_node_shoots_and_hears_what_came_of_it(domain):
     assert example.stdout.startswith('done ['), example.stderr
     x, y = ast.literal_eval(example.stdout.removeprefix('done '))
     assert 0 < x < 2.2352 and 0 < y < 1.1176
+
+
+def example_that_waits(folder, seconds):
+    """Return a copy of the example that gives up after so many seconds."""
+    text = EXAMPLE.read_text()
+    assert text.count('PATIENCE = 30.0') == 1
+    copy = folder / 'example_node.py'
+    copy.write_text(text.replace('PATIENCE = 30.0', f'PATIENCE = {seconds}'))
+    return copy
+
+
+@pytest.fixture
+def heard(ros):
+    """What somebody else who subscribes to the requests has heard, and foreign answers to them."""
+    texts, node = [], ros.node('bystander')
+    requests, responses = interface.SHOT_REQUEST, interface.SHOT_RESPONSE
+    answers = node.create_publisher(responses.type, responses.of('pool_sim'), responses.qos)
+
+    def on_request(request):
+        texts.append(request.data)
+        for text in ('5', '', '[' * 100_000, '{"id": 5}'):
+            answers.publish(messages.to_string(text))
+
+    node.create_subscription(requests.type, requests.of('pool_sim'), on_request, requests.qos)
+    with spinning(node):
+        yield texts
+
+
+def test_the_example_gives_up_where_only_somebody_else_listens(ros, heard, tmp_path):
+    with Process(example_that_waits(tmp_path, 10.0)) as example:
+        assert example.wait() == 1
+    assert 'did not end within 10 s' in example.stderr and 'Traceback' not in example.stderr
+    assert example.stdout == '' and len(heard) > 1 and len(set(heard)) == 1
+
+
+def test_the_example_asks_again_until_the_simulator_is_there(ros, heard, tmp_path):
+    with Process(example_that_waits(tmp_path, PATIENCE)) as example:
+        wait_until(lambda: heard, 'a request that is lost')
+        with spinning(ros.sim_node(real_time_factor=10.0)):
+            assert example.wait() == 0, example.stderr
+    assert example.stdout.startswith('done [')
 
 
 def test_the_tour_shows_the_example_as_it_is():
@@ -54,13 +96,16 @@ def test_the_layouts_of_the_viewers_name_what_the_node_has(name):
         json.loads(text)
 
 
-def test_the_launch_file_starts_what_is_there():
-    root = ElementTree.parse(PROJECT / 'launch' / 'pool.launch.xml').getroot()
-    ours = [node for node in root.iter('node') if node.get('pkg') == 'pool_sim_ros']
-    assert [node.get('exec') for node in ours] == ['sim_node']
-    text = (PROJECT / 'launch' / 'pool.launch.xml').read_text()
-    files = re.findall(r'\$\(find-pkg-share pool_sim_ros\)/([\w./]+)', text)
-    assert files and all((PROJECT / file).is_file() for file in files)
+def test_the_layout_of_foxglove_has_what_its_open_fork_asks_for():
+    """Lichtblick's `LayoutData` requires the first three; a layout names panels that are there."""
+    layout = json.loads((PROJECT / 'config' / 'foxglove_layout.json').read_text())
+    assert {'configById', 'globalVariables', 'playbackConfig', 'userNodes', 'layout'} == set(layout)
+    assert layout['playbackConfig'] == {'speed': 1}
+
+    def panels(node):
+        return {node} if isinstance(node, str) else panels(node['first']) | panels(node['second'])
+
+    assert panels(layout['layout']) == set(layout['configById'])
 
 
 def test_make_help_lists_every_target():

@@ -40,3 +40,21 @@ def test_an_unknown_name_is_an_error_that_names_room_and_name(room):
         room.HEIGHT  # noqa: B018
     with pytest.raises(ImportError, match='HEIGHT'):
         exec('from small_room import HEIGHT', {})
+
+
+def test_a_name_that_is_a_modules_own_is_the_module(tmp_path, monkeypatch):
+    folder = tmp_path / 'small_room'
+    folder.mkdir()
+    (folder / '__init__.py').write_text(
+        'from pool_sim_ros.lazy import lazy_exports\n'
+        "__getattr__ = lazy_exports(__name__, {'sizes': 'sizes'})\n"
+    )
+    (folder / 'sizes.py').write_text('WIDTH = 3\n')
+    monkeypatch.syspath_prepend(tmp_path)
+    room = importlib.import_module('small_room')
+    try:
+        assert 'small_room.sizes' not in sys.modules
+        assert room.sizes.WIDTH == 3
+    finally:
+        for name in [name for name in sys.modules if name.partition('.')[0] == 'small_room']:
+            del sys.modules[name]

@@ -7,12 +7,15 @@ import subprocess
 import sys
 import threading
 import zipfile
+from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
 from catkin_pkg.package import parse_package
 from packaging.requirements import Requirement
+from packaging.version import Version
 from packaging_installs import INSTALLERS, Installation, copy_project, run
 
 import pool_sim_ros
@@ -20,7 +23,21 @@ import pool_sim_ros
 pytestmark = pytest.mark.packaging
 
 PROJECT = Path(__file__).parents[1]
+MAKES_WHEELS = Version('70.1')
+"""The first setuptools that needs no other package for a wheel."""
 COMMANDS = {'sim_node', 'shot', 'replay', 'report', 'web_view', 'record_shot'}
+
+
+def skip_without_builders(*modules):
+    """Skip where what builds and installs packages is not there, or too old to do it alone."""
+    for module in modules:
+        pytest.importorskip(module, reason=f'{module} is not installed here')
+    if (
+        'pip' in modules
+        and not find_spec('wheel')
+        and Version(version('setuptools')) < MAKES_WHEELS
+    ):
+        pytest.skip(f'setuptools is older than {MAKES_WHEELS}, and wheel is not installed here')
 
 
 @pytest.fixture(scope='module')
@@ -31,6 +48,7 @@ def source(tmp_path_factory):
 
 @pytest.fixture(scope='module')
 def wheel(source, tmp_path_factory):
+    skip_without_builders('pip')
     folder = tmp_path_factory.mktemp('wheel')
     run(
         [sys.executable, '-m', 'pip', 'wheel', '--no-deps', '--no-index', '--no-build-isolation']
@@ -50,6 +68,7 @@ def wheel_metadata(wheel):
 @pytest.fixture(scope='module', params=INSTALLERS, ids=lambda install: install.__name__)
 def installation(request, source, tmp_path_factory) -> Installation:
     name = request.param.__name__
+    skip_without_builders('pip' if name.startswith('pip') else 'colcon_ros')
     return request.param(source, tmp_path_factory.mktemp(name))
 
 
@@ -71,11 +90,41 @@ def test_package_xml_is_valid_without_a_warning():
     assert package.get_build_type() == 'ament_python'
     assert {dependency.name for dependency in package.exec_depends} == {
         "rclpy", "std_msgs", "geometry_msgs", "std_srvs", "visualization_msgs",
-        "diagnostic_msgs", "rosgraph_msgs", "python3-numpy", "python3-numba",
+        "diagnostic_msgs", "rosgraph_msgs", "python3-numpy", "python3-numba", "rviz2", "ros2launch",
+        "python3-aiohttp", "python3-matplotlib", "python3-tqdm", "python3-yaml",
     }  # fmt: skip
+    assert {dependency.name for dependency in package.test_depends} == {
+        "ament_index_python", "python3-catkin-pkg-modules", "python3-hypothesis",
+        "python3-packaging", "python3-pytest",
+    }  # fmt: skip
+    # rosdep hands such keys to pip, which refuses to install them beside those of Ubuntu.
+    names = {d.name for d in (*package.exec_depends, *package.test_depends)}
+    assert not any(name.endswith('-pip') for name in names)
+
+
+def test_the_oldest_versions_are_those_that_apt_gives(wheel_metadata):
+    """Ubuntu 24.04 has numpy 1.26.4 and numba 0.58.1; rosdep installs these."""
+    requirements = [Requirement(text) for text in wheel_metadata.get_all('Requires-Dist')]
+    apt = {'numpy': '1.26.4', 'numba': '0.58.1'}
+    for requirement in requirements:
+        if requirement.marker is None:
+            assert requirement.specifier.contains(apt[requirement.name]), requirement
+
+
+def test_every_pip_line_that_a_user_reads_can_work():
+    """The package itself is not on PyPI, so pip has to be given a folder."""
+    files = [
+        *PROJECT.glob('*.md'),
+        *PROJECT.glob('docs/*.md'),
+        *PROJECT.glob('pool_sim_ros/**/*.py'),
+    ]
+    for file in files:
+        found = re.findall(r'pip install[^\n`]*pool_sim_ros', file.read_text())
+        assert not found, f'{file}: {found}'
 
 
 def test_colcon_sees_an_ament_python_package(source, tmp_path):
+    skip_without_builders('colcon_ros')
     listing = run(
         [sys.executable, '-m', 'colcon', '--log-base', tmp_path, 'list', '--base-paths', source]
     )

@@ -11,20 +11,21 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
 from pool_sim_ros.cli.child_process import end, start_module
-from pool_sim_ros.console import ProgressLine, console_command
-from pool_sim_ros.me212 import (
-    attitude_to_nearest,
-    format_aim,
-    format_position,
-    format_shot_head,
-    nearest_ball,
-    published_final_positions,
+from pool_sim_ros.console import (
+    CommandError,
+    Parser,
+    ProgressLine,
+    console_command,
+    require,
+    speed,
 )
-from pool_sim_ros.ros import ShotClient, SimulatorError, init_ros
-from pool_sim_ros.simulator import table_from_json
+from pool_sim_ros.ros import check_environment
+
+if TYPE_CHECKING:
+    from pool_sim_ros.ros import ShotClient
 
 PATIENCE = 300.0
 """Seconds without a sign of the node after which to give up; the slowest machine compiles the
@@ -35,14 +36,14 @@ NODE = f'pool_demo_{os.getpid()}'
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog='python -m pool_sim_ros.cli.demo',
         description="Start the node, play the report's four shots over its topics, and compare "
         'where the balls stop with what the report printed.',
     )
     parser.add_argument(
         '--speed',
-        type=float,
+        type=speed,
         default=1.0,
         metavar='FACTOR',
         help='how many times faster than real time; 0 = as fast as possible (default: %(default)g)',
@@ -50,10 +51,12 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-@console_command('demo', SimulatorError, interrupted='\ndemo: interrupted')
+@console_command('demo', interrupted='\ndemo: interrupted')
 def main(args: list[str]) -> int:
     """Play the four shots; return 0 where all positions equal the printed ones."""
     options = _parser().parse_args(args)
+    require('rclpy')
+    check_environment()
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     # Like Ctrl-C, so that the node does not outlive the demo.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -61,8 +64,9 @@ def main(args: list[str]) -> int:
         try:
             with _simulator(options.speed, log) as process:
                 return _play_all(process, options.speed)
-        except SimulatorError as error:
-            raise SimulatorError(f'{error}\n{_text(log)}') from error
+        except CommandError as error:
+            said = _text(log).strip()
+            raise CommandError(f'{error}\n{said}' if said else str(error)) from error
 
 
 @contextmanager
@@ -82,9 +86,9 @@ def _wait_until_ready(process: subprocess.Popen[bytes], log: IO[bytes]) -> None:
     end = time.monotonic() + PATIENCE
     while 'ready' not in _text(log):
         if process.poll() is not None:
-            raise SimulatorError('the node has ended')
+            raise CommandError('the node has ended')
         if time.monotonic() > end:
-            raise SimulatorError(f'the node was not ready after {PATIENCE:g} s')
+            raise CommandError(f'the node was not ready after {PATIENCE:g} s')
         time.sleep(0.02)
 
 
@@ -94,6 +98,15 @@ def _text(log: IO[bytes]) -> str:
 
 
 def _play_all(process: subprocess.Popen[bytes], speed: float) -> int:
+    from pool_sim_ros.me212 import (
+        attitude_to_nearest,
+        format_aim,
+        nearest_ball,
+        published_final_positions,
+    )
+    from pool_sim_ros.ros import ShotClient, init_ros
+    from pool_sim_ros.simulator import table_from_json
+
     context = init_ros([])
     client = ShotClient(context, NODE, has_ended=lambda: process.poll() is not None)
     line = ProgressLine(sys.stdout)
@@ -119,6 +132,7 @@ def _play(
     client: ShotClient, line: ProgressLine, shot: int, printed: dict[str, tuple[float, float]]
 ) -> int:
     """Play one shot and print its part of the log; return how many positions equal the print."""
+    from pool_sim_ros.me212 import format_position, format_shot_head
 
     def show(words: str) -> None:
         line.show(f'Simulation {shot}: {words}')

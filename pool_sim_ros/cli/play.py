@@ -5,19 +5,24 @@ from __future__ import annotations
 import argparse
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
 
 from pool_sim_ros.cli.child_process import end, start_module
-from pool_sim_ros.console import console_command
+from pool_sim_ros.console import CommandError, Parser, console_command, require
+from pool_sim_ros.ros import check_environment
 
 NAP = 0.05
 """Seconds between two checks of whether one of the two has ended."""
 
+HOST = '127.0.0.1'
+"""Where the page is served: on this machine only."""
+
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog='python -m pool_sim_ros.cli.play',
         description='Start a simulator and a page in the browser to play on it; Ctrl-C ends both.',
     )
@@ -35,6 +40,9 @@ def _parser() -> argparse.ArgumentParser:
 def main(args: list[str]) -> int:
     """Start both, and wait for a signal; return 1 where one of them ended before."""
     options = _parser().parse_args(args)
+    require('rclpy', 'aiohttp')
+    check_environment()
+    _check_port(options.port)
     # A table of its own, out of the way of any other on this machine or network.
     domain = os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 101))
     reach = os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
@@ -50,13 +58,26 @@ def main(args: list[str]) -> int:
     processes: list[subprocess.Popen[bytes]] = []
     try:
         processes.append(start_module('cli.sim_node'))
-        processes.append(start_module('web_view', '--port', str(options.port)))
+        processes.append(start_module('web_view', '--host', HOST, '--port', str(options.port)))
         while not signals and all(process.poll() is None for process in processes):
             time.sleep(NAP)
         return 0 if signals else 1
     finally:
         for process in processes:
             end(process)
+
+
+def _check_port(port: int) -> None:
+    """Return if the page can be served there; otherwise the simulator need not start."""
+    try:
+        socket.create_server((HOST, port)).close()
+    except (OSError, OverflowError) as error:
+        known = isinstance(error, OSError) and error.errno
+        reason = os.strerror(known) if known else 'a port is 0 to 65535'
+        raise CommandError(
+            f'the page cannot be served at port {port}: {reason}; '
+            'choose another one, as in: make play PORT=8081'
+        ) from error
 
 
 if __name__ == '__main__':

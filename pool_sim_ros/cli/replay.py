@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 import time
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rclpy.context import Context
-from rclpy.duration import Duration
-from rclpy.node import Node
+from pool_sim_ros.console import CommandError, Parser, path, speed
+from pool_sim_ros.ros import ros_command
 
-from pool_sim_ros.ros import Publishers, digests, interface, ros_command, shut_down_on_signals
-from pool_sim_ros.simulator import LogError, Pacer, Settings, read_log, replay_frames
+if TYPE_CHECKING:
+    from rclpy.context import Context
+
+    from pool_sim_ros.simulator import Settings
 
 NAP = 0.05
 """Longest time between two checks of whether to go on, s."""
@@ -22,24 +22,17 @@ DELIVERY_PATIENCE = 5.0
 """Seconds to wait until the last frames have reached their readers."""
 
 
-def _speed(text: str) -> float:
-    speed = float(text)
-    if not (math.isfinite(speed) and speed >= 0.0):
-        raise ValueError
-    return speed
-
-
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog='replay',
         description='Show a session again that sim_node recorded (its parameter record): the same '
         'bytes on ball_poses, ball_velocities and collisions.',
         epilog='ROS arguments, like --ros-args -r __ns:=/NS, may follow.',
     )
-    parser.add_argument('file', metavar='FILE', help='the log that sim_node wrote')
+    parser.add_argument('file', type=path, metavar='FILE', help='the log that sim_node wrote')
     parser.add_argument(
         '--speed',
-        type=_speed,
+        type=speed,
         default=1.0,
         metavar='FACTOR',
         help='sim seconds per second; 0 = as fast as possible (default: %(default)g)',
@@ -57,16 +50,26 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-@ros_command('replay', _parser, LogError)
+def _note(line: str) -> None:
+    print(f'replay: {line}', file=sys.stderr)
+
+
+@ros_command('replay', _parser)
 def main(context: Context, options: argparse.Namespace) -> None:
     """Replay a session, or print the digests of what it sends."""
-    settings, commands = read_log(options.file)
-    if options.digest:
-        for topic, digest in digests(settings, replay_frames(settings, commands)).items():
-            print(f'{digest}  {topic}')
-        return
-    shut_down_on_signals(context)
-    _play(context, settings, commands, options)
+    from pool_sim_ros.ros import digests, shut_down_on_signals
+    from pool_sim_ros.simulator import LogError, read_log, replay_frames
+
+    try:
+        settings, commands = read_log(options.file, _note)
+        if options.digest:
+            for topic, digest in digests(settings, replay_frames(settings, commands)).items():
+                print(f'{digest}  {topic}')
+            return
+        shut_down_on_signals(context)
+        _play(context, settings, commands, options)
+    except LogError as error:
+        raise CommandError(str(error)) from error
 
 
 def _play(
@@ -75,7 +78,13 @@ def _play(
     commands: list[dict[str, Any]],
     options: argparse.Namespace,
 ) -> None:
-    node = Node(interface.NODE_NAME, context=context, start_parameter_services=False)
+    from rclpy.duration import Duration
+    from rclpy.node import Node
+
+    from pool_sim_ros.ros import NODE_NAME, Publishers
+    from pool_sim_ros.simulator import Pacer, replay_frames
+
+    node = Node(NODE_NAME, context=context, start_parameter_services=False)
     try:
         output = Publishers(node, settings)
         output.table(settings)

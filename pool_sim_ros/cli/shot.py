@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rclpy.context import Context
-
-from pool_sim_ros.cli.shot_arguments import ShotParser
+from pool_sim_ros.cli.shot_arguments import ShotParser, check_shot
 from pool_sim_ros.console import ProgressLine
-from pool_sim_ros.me212 import format_shot
-from pool_sim_ros.ros import ShotClient, SimulatorError, ros_command
+from pool_sim_ros.ros import ros_command
+
+if TYPE_CHECKING:
+    from rclpy.context import Context
+
+    from pool_sim_ros.ros import ShotClient
 
 
 def _parser() -> ShotParser:
@@ -20,9 +22,12 @@ def _parser() -> ShotParser:
     )
 
 
-@ros_command('shot', _parser, SimulatorError, interrupted='shot: interrupted; the shot goes on')
+@ros_command('shot', _parser, interrupted='shot: interrupted; the shot goes on')
 def main(context: Context, options: argparse.Namespace) -> None:
     """Play one shot."""
+    from pool_sim_ros.ros import ShotClient
+
+    check_shot(options)
     client = ShotClient(context, options.node)
     try:
         _play(client, options)
@@ -31,6 +36,8 @@ def main(context: Context, options: argparse.Namespace) -> None:
 
 
 def _play(client: ShotClient, options: argparse.Namespace) -> None:
+    from pool_sim_ros.me212 import format_shot
+
     line = ProgressLine(sys.stdout)
     client.wait_for_simulator(options.timeout)
     try:

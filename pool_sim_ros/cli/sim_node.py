@@ -4,29 +4,31 @@ from __future__ import annotations
 
 import argparse
 import sys
+from typing import TYPE_CHECKING
 
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
+from pool_sim_ros.console import CommandError, Parser
+from pool_sim_ros.ros import ros_command
 
-from pool_sim_ros.ros import SimNode, interface, leave_at_once, ros_command, shut_down_on_signals
-from pool_sim_ros.simulator import PARAMETERS, ParameterError
+if TYPE_CHECKING:
+    from rclpy.context import Context
 
 SHUTDOWN_PATIENCE = 0.1
 """Seconds to wait for the end of a shot's computation before the process ends."""
 
 
 def _parser() -> argparse.ArgumentParser:
-    endpoints = [item for item in vars(interface).values() if isinstance(item, interface.Endpoint)]
+    from pool_sim_ros.simulator import PARAMETERS
+
     epilog = [
         'ROS arguments: --ros-args --params-file FILE -p NAME:=VALUE -r __node:=NAME -r __ns:=/NS',
         '',
         'topics and services:',
-        *(f'  {endpoint.private}: {endpoint.doc}' for endpoint in endpoints),
+        *_endpoints(),
         '',
         'parameters:',
         *(f'  {spec.name}: {spec.doc} ({spec.change.value})' for spec in PARAMETERS.values()),
     ]
-    return argparse.ArgumentParser(
+    return Parser(
         prog='sim_node',
         description='A pool table on ROS topics. Without parameters: the table of the report.',
         epilog='\n'.join(epilog),
@@ -34,16 +36,35 @@ def _parser() -> argparse.ArgumentParser:
     )
 
 
-@ros_command('sim_node', _parser, ParameterError)
+def _endpoints() -> list[str]:
+    try:
+        from pool_sim_ros.ros import interface
+    except ImportError:
+        return ['  (listed where ROS 2 is installed)']
+    endpoints = [item for item in vars(interface).values() if isinstance(item, interface.Endpoint)]
+    return [f'  {endpoint.private}: {endpoint.doc}' for endpoint in endpoints]
+
+
+@ros_command('sim_node', _parser)
 def main(context: Context, _: argparse.Namespace) -> int:
     """Run the node; return 1 if one of its threads failed."""
+    from pool_sim_ros.ros import (
+        LastingExecutor,
+        SimNode,
+        leave_at_once,
+        shut_down_on_signals,
+    )
+    from pool_sim_ros.simulator import ParameterError
+
     shut_down_on_signals(context)
     node = None
     try:
         node = SimNode(context=context)
-        executor = SingleThreadedExecutor(context=context)
+        executor = LastingExecutor(context)
         executor.add_node(node)
         executor.spin()
+    except ParameterError as error:
+        raise CommandError(str(error)) from error
     except Exception:
         if context.ok():  # else the shutdown overtook whatever was going on
             raise

@@ -7,12 +7,17 @@ import sys
 from collections.abc import Callable
 from typing import Protocol
 
+from pool_sim_ros.console.errors import CommandError
+from pool_sim_ros.console.missing import PACKAGE, import_line
+from pool_sim_ros.console.output import (
+    NOBODY_READS,
+    BrokenOutputError,
+    complain,
+    guarded_output,
+)
+
 INTERRUPTED = 130
 """Exit status after Ctrl-C, as shells have it."""
-
-
-class CommandError(Exception):
-    """A command cannot do its work; the message is one line for the user."""
 
 
 class Main(Protocol):
@@ -31,6 +36,7 @@ def console_command(
     """Return a decorator that makes the `main` of a command.
 
     The function takes the list of arguments and returns the exit status, where None stands for 0.
+    A missing package is told in one line too, and so is an output that cannot be written.
 
     Parameters
     ----------
@@ -47,17 +53,34 @@ def console_command(
     told: tuple[type[Exception], ...] = (CommandError, *errors)
 
     def decorate(run: Callable[[list[str]], int | None]) -> Main:
+        def attempt(args: list[str]) -> int:
+            try:
+                return run(args) or 0
+            except told as error:
+                complain(f'{name}: {error}')
+                return 1
+            except ImportError as error:
+                if (error.name or '').partition('.')[0] == PACKAGE:
+                    raise
+                complain(f'{name}: {import_line(error)}')
+                return 1
+            except KeyboardInterrupt:
+                # What was interrupted while it was made may raise once more when it goes.
+                sys.unraisablehook = lambda _: None
+                if interrupted is not None:
+                    complain(interrupted)
+                return interrupt_status
+
         @functools.wraps(run)
         def main(args: list[str] | None = None) -> int:
             try:
-                return run(sys.argv[1:] if args is None else args) or 0
-            except told as error:
-                print(f'{name}: {error}', file=sys.stderr)
+                with guarded_output():
+                    return attempt(sys.argv[1:] if args is None else args)
+            except BrokenOutputError as error:
+                if error.unread:
+                    return NOBODY_READS
+                complain(f'{name}: the output cannot be written: {error.reason}')
                 return 1
-            except KeyboardInterrupt:
-                if interrupted is not None:
-                    print(interrupted, file=sys.stderr)
-                return interrupt_status
 
         return main
 

@@ -10,15 +10,16 @@ PERIOD = 0.1
 
 
 class ProgressLine:
-    """A line that shows what goes on; nothing if the stream is not a terminal.
+    """A line that shows what goes on; nothing where there is no terminal.
 
     Parameters
     ----------
-    stream : file
+    stream : file or None
+        None where standard output is closed.
     """
 
-    def __init__(self, stream: TextIO) -> None:
-        self.wanted = stream.isatty()
+    def __init__(self, stream: TextIO | None) -> None:
+        self.wanted = stream is not None and stream.isatty()
         """Whether anybody sees it."""
         self._stream = stream
         self._next = 0.0
@@ -36,5 +37,6 @@ class ProgressLine:
             self._write('')
 
     def _write(self, text: str) -> None:
+        assert self._stream is not None, 'somebody sees it'
         self._stream.write(f'\r\x1b[K{text}')
         self._stream.flush()

@@ -20,16 +20,18 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
     from pool_sim_ros.physics.cue import cue_strike
     from pool_sim_ros.physics.cushions import Cushions
+    from pool_sim_ros.physics.game_tables import pool_table
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
     from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
-    from pool_sim_ros.physics.outcomes import Outcomes, ShotTooLong
-    from pool_sim_ros.physics.game_tables import pool_table
+    from pool_sim_ros.physics.outcomes import Outcomes, ShotCancelled, ShotTooLong
     from pool_sim_ros.physics.pool_tables import POOL_TABLES, PoolTableName
     from pool_sim_ros.physics.racks import RackKind, rack
+    from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
     from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, BallFriction, Table
+    from pool_sim_ros.physics.tolerances import V_MIN
     from pool_sim_ros.physics.trajectory import Trajectory
     from pool_sim_ros.physics.validation import check_layout
 else:
@@ -43,6 +45,7 @@ else:
             'INTEGRATORS': 'integrators',
             'Integrator': 'integrators',
             'Outcomes': 'outcomes',
+            'ShotCancelled': 'outcomes',
             'ShotTooLong': 'outcomes',
             'REPORT_TIME_SLICE': 'integrators',
             'Table': 'table',
@@ -54,6 +57,7 @@ else:
             'POOL_TABLES': 'pool_tables',
             'PoolTableName': 'pool_tables',
             'RackKind': 'racks',
+            'V_MIN': 'tolerances',
             'check_layout': 'validation',
             'collide_balls': 'contacts.single',
             'collide_cushion': 'contacts.single',
@@ -62,6 +66,7 @@ else:
             'pool_table': 'game_tables',
             'rack': 'racks',
             'report_table': 'me212_table',
+            'separated': 'separation',
             'simulate': 'shots',
             'simulate_many': 'shots',
             'two_ball_collision': 'contacts.two_ball',
@@ -84,10 +89,12 @@ __all__ = [
     'POOL_TABLES',
     'PoolTableName',
     'RackKind',
+    'ShotCancelled',
     'ShotTooLong',
     'Table',
     'Trajectory',
     'TwoBallCollision',
+    'V_MIN',
     'check_layout',
     'collide_balls',
     'collide_cushion',
@@ -96,6 +103,7 @@ __all__ = [
     'pool_table',
     'rack',
     'report_table',
+    'separated',
     'simulate',
     'simulate_many',
     'two_ball_collision',

@@ -24,6 +24,10 @@ class ShotTooLong(ValueError):  # noqa: N818, the public name
     """A shot had more events than it may have."""
 
 
+class ShotCancelled(Exception):  # noqa: N818, as above
+    """A shot was given up because its caller no longer wants it."""
+
+
 class Shot(NamedTuple):
     """All of one shot: as `Trajectory` has it, and `failed` as `Outcomes`."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -44,6 +45,7 @@ def simulate(
     time_slice: float = REPORT_TIME_SLICE,
     until: float | None = None,
     max_events: int | None = None,
+    cancelled: Callable[[], bool] | None = None,
 ) -> Trajectory:
     """Play one shot until all balls rest.
 
@@ -65,6 +67,9 @@ def simulate(
         Stop the clock there, s. Required where nothing slows the balls.
     max_events : int, optional
         A longer shot is given up; by default 100,000, or 1,000 a ball where that is more.
+    cancelled : callable, optional
+        `time_slice` calls it now and then, and gives the shot up where it returns True. `event`
+        does not: `max_events` ends it soon enough.
 
     Returns
     -------
@@ -78,6 +83,8 @@ def simulate(
         energy without end.
     ShotTooLong
         A ValueError, for a shot of more than `max_events`.
+    ShotCancelled
+        Where `cancelled` returned True.
     """
     limits = limits_of(table, integrator, time_slice, until, max_events)
     moving = velocities_for(table, velocities, 1)
@@ -87,7 +94,7 @@ def simulate(
     if integrator == 'event':
         shot = work_area(table).play(moving, turning, layout, limits)
     else:
-        shot = time_slicing.play(table, layout, moving, float(time_slice), limits)
+        shot = time_slicing.play(table, layout, moving, float(time_slice), limits, cancelled)
     if shot.failed:
         raise_failed(table, shot.failed, 'this shot', moving, layout, limits[1])
     return Trajectory(

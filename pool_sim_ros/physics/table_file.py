@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from pool_sim_ros.physics.cushions import Cushions
 from pool_sim_ros.physics.balls import Ball
+from pool_sim_ros.physics.cushions import Cushions
 from pool_sim_ros.physics.table import Table
 
 FORMAT = 'pool_sim_ros table'

@@ -81,6 +81,9 @@ MAX_PRESSES = STEADY_PRESSES + 64 * 4
 PRESS_MARGIN = 2.0
 """A pressed contact is weak that closes at most so many times as fast as it is to part."""
 
+PRESSED_SPEED = PRESS_MARGIN * 16.0 * V_MIN
+"""Speed in m/s up to which what is pressed may part, and still counts as pressed."""
+
 SETTLE_EVERY = 8
 """One in so many pressed contacts parts at V_ROUNDING: two balls may lie still by now."""
 
@@ -171,6 +174,9 @@ MOST_EVENTS_A_BALL = 1_000
 """Events that a shot may have for each ball, where that is more."""
 
 # The report's integrator
+
+MAX_SEPARATIONS = 2_000
+"""Times that balls which overlap are moved apart; a rack of 15 needs some hundred."""
 
 LOOK_MARGIN = 1e-6
 """Part by which the look at a pair comes earlier than the two could touch: far above rounding."""

@@ -5,3 +5,7 @@ films, `page` writes ``report.html``, and `positions` writes the CSV file; `comp
 what the page says about the print. Nothing else in the package needs this folder, so it exports
 nothing.
 """
+
+from pool_sim_ros.interrupts import quiet_interrupts
+
+quiet_interrupts()

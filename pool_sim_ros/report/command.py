@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from pool_sim_ros.console import console_command
+from pool_sim_ros.console import Parser, console_command, missing_line, path
 from pool_sim_ros.me212 import SHOT_NUMBERS
 from pool_sim_ros.physics import INTEGRATORS
 from pool_sim_ros.report.errors import ReportError
@@ -132,31 +132,28 @@ def _settings(options: argparse.Namespace) -> Settings:
 
 def _check_packages(options: argparse.Namespace) -> None:
     """Raise ReportError before the work begins if a package that it needs is missing."""
-    needed = {}
-    if options.table:
-        needed['yaml'] = 'PyYAML'
+    needed = ['yaml'] if options.table else []
     if not options.log_only:
-        needed |= {name: name for name in ('latex2mathml', 'matplotlib', 'tqdm')}
+        needed += ['latex2mathml', 'matplotlib', 'tqdm']
         if options.videos:
-            needed['imageio_ffmpeg'] = 'imageio-ffmpeg'
-    missing = [package for module, package in needed.items() if find_spec(module) is None]
+            needed.append('imageio_ffmpeg')
+    missing = [module for module in needed if find_spec(module) is None]
     if missing:
-        raise ReportError(
-            f"needs {', '.join(missing)}, not installed here: pip install 'pool_sim_ros[report]'"
-        )
+        raise ReportError(missing_line(missing))
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog='report',
         description='Compute the four shots of the ME 212 Billiards Project Report and write its '
         'outputs: the log, the end positions, pictures and films of the shots, and one page, '
         'report.html, with the equations, the results and their accuracy.',
-        epilog="Needs no ROS, but the extra 'report': pip install 'pool_sim_ros[report]'.",
+        epilog='Needs no ROS, but for the page: '
+        'pip install matplotlib tqdm pyyaml latex2mathml imageio-ffmpeg',
     )
     parser.add_argument(
         '--out',
-        type=Path,
+        type=path,
         default=Path('report'),
         metavar='FOLDER',
         help='where to write; files of the same names are replaced (default: ./%(default)s)',
@@ -178,7 +175,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         '--table',
-        type=Path,
+        type=path,
         metavar='FILE',
         help='play on another table: a parameter file of sim_node, like config/report.yaml',
     )

@@ -16,13 +16,23 @@ from pool_sim_ros.report.comparison import (
     final_inches,
     greatest_difference,
 )
-from pool_sim_ros.report.markup import Cell, ball_name, fill, number, pair, short, table
+from pool_sim_ros.report.markup import (
+    Cell,
+    Html,
+    ball_name,
+    fill,
+    join,
+    number,
+    pair,
+    short,
+    table,
+)
 from pool_sim_ros.report.played import moved_balls
 
 REPORT_SLICE = SLICES[-1]
 
 
-def comparison_section(given: Table, comparisons: Sequence[Comparison]) -> str:
+def comparison_section(given: Table, comparisons: Sequence[Comparison]) -> Html:
     """Return the section as HTML; without comparisons it says why there are none.
 
     Parameters
@@ -42,10 +52,10 @@ def comparison_section(given: Table, comparisons: Sequence[Comparison]) -> str:
     if 4 in by_number:
         parts.append(_rounding_branch(next(sections), given, by_number[4]))
     parts.append(_listing(next(sections), given, comparisons))
-    return '\n'.join(parts)
+    return join(parts, '\n')
 
 
-def _exact(given: Table, comparisons: Sequence[Comparison]) -> str:
+def _exact(given: Table, comparisons: Sequence[Comparison]) -> Html:
     ends = [np.round(final_inches(comparison.exact), 2) for comparison in comparisons]
     equal = [
         np.all(np.isclose(end, comparison.printed, rtol=0.0, atol=1e-6), axis=1)
@@ -88,7 +98,7 @@ def _exact(given: Table, comparisons: Sequence[Comparison]) -> str:
     )
 
 
-def _slicing_error(section: str, given: Table, comparison: Comparison) -> str:
+def _slicing_error(section: str, given: Table, comparison: Comparison) -> Html:
     sliced = comparison.sliced[REPORT_SLICE]
     error, ball = greatest_difference(final_inches(sliced), final_inches(comparison.exact))
     return fill(
@@ -101,7 +111,7 @@ def _slicing_error(section: str, given: Table, comparison: Comparison) -> str:
     )
 
 
-def _rounding_branch(section: str, given: Table, comparison: Comparison) -> str:
+def _rounding_branch(section: str, given: Table, comparison: Comparison) -> Html:
     rows = []
     for index in moved_balls(comparison.exact):
         sliced = [pair(final_inches(t)[index], 2) for t in comparison.sliced.values()]
@@ -121,7 +131,7 @@ def _rounding_branch(section: str, given: Table, comparison: Comparison) -> str:
     )
 
 
-def _listing(section: str, given: Table, comparisons: Sequence[Comparison]) -> str:
+def _listing(section: str, given: Table, comparisons: Sequence[Comparison]) -> Html:
     rows = [
         [
             f'{comparison.number}',

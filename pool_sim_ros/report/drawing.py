@@ -5,6 +5,7 @@ Everything is drawn to scale in metres, labels too, so a picture is the same at 
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import IO
 
@@ -17,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Circle, PathPatch, Rectangle
 from matplotlib.path import Path
-from matplotlib.textpath import TextPath
+from matplotlib.textpath import TextPath, text_to_path
 from matplotlib.transforms import Affine2D
 
 from pool_sim_ros.physics import Ball, Table
@@ -121,15 +122,20 @@ def empty_figure(width: float, height: float) -> Figure:
 def label_outline(label: str, size: float) -> Path:
     """Return the outline of a label in bold type, centred on the origin, that fits a circle.
 
+    Characters that cannot be printed are left out.
+
     Parameters
     ----------
     label : str
     size : float
         Diameter of the circle, m.
     """
-    if label.isspace():
-        return Path(np.empty((0, 2)))
-    outline = TextPath((0.0, 0.0), label.replace('$', r'\$'), 1.0, prop=_BOLD)
+    text = ''.join(filter(str.isprintable, label)).replace('$', r'\$')
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore')  # a character that the font has not is a box
+        if not len(text_to_path.get_text_path(_BOLD, text)[0]):
+            return Path(np.empty((0, 2)))
+        outline = TextPath((0.0, 0.0), text, 1.0, prop=_BOLD)
     box = outline.get_extents()
     scale = size / max(np.hypot(box.width, box.height), _LEAST_DIAGONAL)
     centre = (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2

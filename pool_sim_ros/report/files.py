@@ -57,6 +57,9 @@ def _make_folder(folder: Path) -> None:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file, UTF-8 with line feeds; raises as `whole_file`."""
+    """Write a text file, UTF-8 with line feeds; raises as `whole_file`.
+
+    A half of a surrogate pair, which UTF-8 has not, becomes an escape.
+    """
     with whole_file(path) as part:
-        part.write_bytes(text.encode())
+        part.write_bytes(text.encode(errors='backslashreplace'))

@@ -1,4 +1,7 @@
-"""Parts of a page: tables, figures, numbers, and the templates that hold the text."""
+"""Parts of a page: tables, figures, numbers, and the templates that hold the text.
+
+Whatever is no `Html` is text: it is escaped where it goes into HTML.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,11 @@ from pool_sim_ros.physics import Ball
 MINUS = '\N{MINUS SIGN}'
 
 
-class Cell(str):
+class Html(str):
+    """A text that is HTML already."""
+
+
+class Cell(Html):
     """A cell of a table that is HTML already, with its CSS class."""
 
     css_class = ''
@@ -25,10 +32,25 @@ class Cell(str):
         return cell
 
 
-def fill(template: str, **parts: object) -> str:
-    """Return a file of `templates` with `parts` in place of its ``$names``."""
+def fill(template: str, **parts: object) -> Html:
+    """Return a file of `templates` with `parts`, escaped, in place of its ``$names``."""
     text = (resources.files(__package__) / 'templates' / template).read_text('utf-8')
-    return Template(text).substitute(parts)
+    return Html(Template(text).substitute({name: to_html(part) for name, part in parts.items()}))
+
+
+def to_html(part: object) -> Html:
+    """Return HTML as it is, and anything else escaped.
+
+    A backslash is escaped too: `with_formulae` must not find a formula in a label.
+    """
+    if isinstance(part, Html):
+        return part
+    return Html(escape(str(part)).replace('\\', '&#92;'))
+
+
+def join(parts: Iterable[object], between: str) -> Html:
+    """Return parts one after another, each escaped unless it is HTML."""
+    return Html(between.join(map(to_html, parts)))
 
 
 def table(
@@ -36,23 +58,23 @@ def table(
     rows: Iterable[Sequence[str]],
     caption: str,
     text_columns: Collection[int] = (),
-) -> str:
+) -> Html:
     """Return a table. Its cells and titles are text, except for those that are a `Cell`."""
 
     def line(tag: str, cells: Sequence[str]) -> str:
         return ''.join(_cell(tag, cell, i in text_columns) for i, cell in enumerate(cells))
 
     body = '\n'.join(f'<tr>{line("td", row)}</tr>' for row in rows)
-    return (
-        f'<div class="table" role="region" aria-label="{escape(caption)}" tabindex="0">'
-        f'<table>\n<caption>{escape(caption)}</caption>\n'
+    return Html(
+        f'<div class="table" role="region" aria-label="{to_html(caption)}" tabindex="0">'
+        f'<table>\n<caption>{to_html(caption)}</caption>\n'
         f'<thead><tr>{line("th", head)}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table></div>'
     )
 
 
 def figure(
     pictures: Mapping[str, bytes], path: str, caption: str, description: str, css_class: str = ''
-) -> str:
+) -> Html:
     """Return a picture inside the page, with a link to its file.
 
     Parameters
@@ -66,10 +88,10 @@ def figure(
     css_class : str, optional
     """
     data = base64.b64encode(pictures[path]).decode()
-    return (
+    return Html(
         f'<figure class="{css_class}"><img src="data:image/svg+xml;base64,{data}" '
-        f'alt="{escape(description)}"><figcaption>{escape(caption)} '
-        f'(<a href="{path}">600 dpi</a>).</figcaption></figure>'
+        f'alt="{to_html(description)}"><figcaption>{to_html(caption)} '
+        f'(<a href="{to_html(path)}">600 dpi</a>).</figcaption></figure>'
     )
 
 
@@ -77,7 +99,7 @@ def ball_name(ball: Ball) -> Cell:
     """Return a spot of a ball's colour and its label."""
     color = ' '.join(f'{round(255 * level)}' for level in ball.color)
     swatch = f'<span class="swatch" style="background: rgb({color})"></span>'
-    return Cell(swatch + escape(ball.label))
+    return Cell(swatch + to_html(ball.label))
 
 
 def number(value: float, decimals: int) -> str:
@@ -93,21 +115,17 @@ def pair(values: Iterable[float], decimals: int) -> str:
     return ', '.join(number(value, decimals) for value in values)
 
 
-def short(value: float) -> str:
+def short(value: float) -> Html:
     """Return a number with few digits as HTML; small and large ones get a power of ten."""
     if value == 0.0 or 1e-3 <= abs(value) < 1e4:
-        return f'{value:g}'
+        return Html(f'{value:g}')
     mantissa, exponent = f'{value:.5e}'.split('e')
     mantissa = mantissa.rstrip('0').rstrip('.')
     factor = '' if mantissa == '1' else f'{mantissa} · '
-    return f'{factor}10<sup>{MINUS if int(exponent) < 0 else ""}{abs(int(exponent))}</sup>'
+    return Html(f'{factor}10<sup>{MINUS if int(exponent) < 0 else ""}{abs(int(exponent))}</sup>')
 
 
 def _cell(tag: str, cell: str, is_text: bool) -> str:
     css_class = getattr(cell, 'css_class', '') or ('text' if is_text else '')
     attribute = f' class="{css_class}"' if css_class else ''
-    return f'<{tag}{attribute}>{_html(cell)}</{tag}>'
-
-
-def _html(cell: str) -> str:
-    return cell if isinstance(cell, Cell) else escape(cell)
+    return f'<{tag}{attribute}>{to_html(cell)}</{tag}>'

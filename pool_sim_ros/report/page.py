@@ -12,7 +12,18 @@ from pool_sim_ros.me212 import inches, nearest_ball
 from pool_sim_ros.physics import INCH, EventKind
 from pool_sim_ros.report.comparison import Comparison
 from pool_sim_ros.report.comparison_page import comparison_section
-from pool_sim_ros.report.markup import ball_name, figure, fill, number, pair, short, table
+from pool_sim_ros.report.markup import (
+    Html,
+    ball_name,
+    figure,
+    fill,
+    join,
+    number,
+    pair,
+    short,
+    table,
+    to_html,
+)
 from pool_sim_ros.report.mathml import with_formulae
 from pool_sim_ros.report.part_one import example
 from pool_sim_ros.report.played import PlayedShot, verdict
@@ -20,6 +31,13 @@ from pool_sim_ros.simulator import Settings
 
 LAYOUT_FIGURE = 3
 """Number of the figure that shows the layout; two figures for each shot follow it."""
+
+POLICY = Html(
+    "default-src 'none'; img-src data:; media-src 'self' file:; "
+    "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+)
+"""What the page may load: pictures, films and its own style, and no script at all. Browsers do not
+agree on what 'self' is for a page that is a file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,35 +68,41 @@ class Content:
 
 def make_page(content: Content) -> str:
     """Return the page as HTML, with all pictures inside."""
-    sections = [
-        _part_1(content),
-        _part_2(content),
-        _shots(content),
-        comparison_section(content.settings.table, content.comparisons),
-    ]
-    headings = re.findall('<h2 id="(.+?)">(.+?)</h2>', ''.join(sections))
+    sections = join(
+        [
+            _part_1(content),
+            _part_2(content),
+            _shots(content),
+            comparison_section(content.settings.table, content.comparisons),
+        ],
+        '\n',
+    )
+    headings = re.findall('<h2 id="(.+?)">(.+?)</h2>', sections)
     page = fill(
         'page.html',
+        policy=POLICY,
         style=fill('style.css'),
         version=pool_sim_ros.__version__,
         ball_count=len(content.settings.table.balls),
         verdict=_verdict(content),
-        contents='\n'.join(f'<li><a href="#{name}">{title}</a></li>' for name, title in headings),
-        sections='\n'.join(sections),
-        files=', '.join(f'<a href="{name}">{name}</a>' for name in content.files),
+        contents=join(
+            (Html(f'<li><a href="#{name}">{title}</a></li>') for name, title in headings), '\n'
+        ),
+        sections=sections,
+        files=join((_link(name) for name in content.files), ', '),
     )
     return with_formulae(page)
 
 
-def _verdict(content: Content) -> str:
+def _verdict(content: Content) -> Html:
     settings = content.settings
-    how = f'time slicing with slices of {short(settings.time_slice)} s, as the listing does it'
+    how = ['time slicing with slices of ', short(settings.time_slice), ' s, as the listing does it']
     if settings.report_integrator == 'event':
-        how = 'the exact integrator, from contact to contact'
-    return f'Computed by {how}. {verdict(settings, content.shots)}'
+        how = ['the exact integrator, from contact to contact']
+    return join(['Computed by ', *how, '. ', verdict(settings, content.shots)], '')
 
 
-def _part_1(content: Content) -> str:
+def _part_1(content: Content) -> Html:
     collision = example(content.settings.table)
     rows = []
     for law in ('coulomb', 'report'):
@@ -129,7 +153,7 @@ def _part_1(content: Content) -> str:
     )
 
 
-def _part_2(content: Content) -> str:
+def _part_2(content: Content) -> Html:
     settings = content.settings
     given = settings.table
     constants = (
@@ -181,12 +205,12 @@ def _part_2(content: Content) -> str:
     )
 
 
-def _shots(content: Content) -> str:
-    parts = ['<h2 id="shots">3 The shots</h2>']
-    return '\n'.join([*parts, *(_shot(content, shot) for shot in content.shots)])
+def _shots(content: Content) -> Html:
+    heading = Html('<h2 id="shots">3 The shots</h2>')
+    return join([heading, *(_shot(content, shot) for shot in content.shots)], '\n')
 
 
-def _shot(content: Content, shot: PlayedShot) -> str:
+def _shot(content: Content, shot: PlayedShot) -> Html:
     kinds = shot.trajectory.events['kind']
     first_figure = LAYOUT_FIGURE + 2 * shot.number - 1
     aim = f', toward ball {shot.table.labels[nearest_ball(shot.table)]}' if shot.number == 4 else ''
@@ -219,14 +243,18 @@ def _shot(content: Content, shot: PlayedShot) -> str:
     )
 
 
-def _film(shot: int, path: str) -> str:
-    return (
-        f'<figure class="film"><video controls preload="metadata" src="{path}"></video>'
-        f'<figcaption>Film of simulation {shot} (<a href="{path}">file</a>).</figcaption></figure>'
+def _film(shot: int, path: str) -> Html:
+    return Html(
+        f'<figure class="film"><video controls preload="metadata" src="{to_html(path)}"></video>'
+        f'<figcaption>Film of simulation {shot} ({_link(path, "file")}).</figcaption></figure>'
     )
 
 
-def _positions(shot: PlayedShot) -> str:
+def _link(path: str, text: str | None = None) -> Html:
+    return Html(f'<a href="{to_html(path)}">{to_html(text or path)}</a>')
+
+
+def _positions(shot: PlayedShot) -> Html:
     head, rows = ['Ball', 'End, m', 'End, in'], []
     if shot.printed:
         head += ['Printed, in', 'Difference, in']

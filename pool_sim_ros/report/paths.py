@@ -118,10 +118,11 @@ def _draw_start(axes: Axes, ball: Ball, label_place: np.ndarray | None) -> None:
             zorder=PATH_LEVEL,
         )
     )
-    if label_place is not None:
+    outline = label_outline(ball.label, 2 * LABEL_ROOM * ball.radius)
+    if label_place is not None and np.size(outline.vertices):
         axes.add_patch(
             PathPatch(
-                label_outline(ball.label, 2 * LABEL_ROOM * ball.radius),
+                outline,
                 facecolor='black',
                 linewidth=0.0,
                 transform=Affine2D().translate(*label_place) + axes.transData,

@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-import re
+import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 from pool_sim_ros.report.errors import ReportError
-from pool_sim_ros.simulator import ParameterError, Settings, build_settings, values_from
+from pool_sim_ros.report.strict_yaml import read_yaml
+from pool_sim_ros.simulator import (
+    FileError,
+    ParameterError,
+    Settings,
+    build_settings,
+    near_misses,
+    read_text,
+    values_from,
+)
+
+MAX_FILE = 10_000_000
+"""Bytes of a parameter file: the lists of 50,000 balls."""
 
 
 class TableFileError(ReportError):
@@ -17,6 +28,8 @@ class TableFileError(ReportError):
 
 def read_settings(path: Path) -> Settings:
     """Return the settings in a parameter file like ``config/report.yaml``.
+
+    A name that is nearly one of the parameters is told on stderr.
 
     Parameters
     ----------
@@ -27,20 +40,18 @@ def read_settings(path: Path) -> Settings:
     TableFileError
         If the file cannot be read, or if a node would refuse to start with it.
     """
-    import yaml
-
     try:
-        content = yaml.load(path.read_text(encoding='utf-8'), Loader=_loader())
-    except OSError as error:
-        raise TableFileError(f'cannot read {path}: {error.strerror}') from error
-    except UnicodeDecodeError as error:
-        raise TableFileError(f'cannot read {path}: it is not UTF-8 text') from error
-    except yaml.YAMLError as error:
-        raise TableFileError(f'cannot read {path}: {_in_one_line(error)}') from error
+        content = read_yaml(read_text(path, MAX_FILE))
+    except (FileError, ValueError) as error:
+        raise TableFileError(f'cannot read {path}: {error}') from error
     try:
-        return build_settings(values_from(dict(_flat(_parameters(content)))))
+        values = dict(_flat(_parameters(content)))
+        settings = build_settings(values_from(values))
     except ParameterError as error:
         raise TableFileError(f'{path}: {error}') from error
+    for name, ours in near_misses(values).items():
+        print(f'{path}: {name} is not a parameter; did you mean {ours}?', file=sys.stderr)
+    return settings
 
 
 def _parameters(content: object) -> Mapping[str, object]:
@@ -58,19 +69,3 @@ def _flat(tree: Mapping[str, object], prefix: str = '') -> Iterator[tuple[str, o
             yield from _flat(value, f'{prefix}{key}.')
         else:
             yield f'{prefix}{key}', value
-
-
-def _loader() -> Any:
-    """Return a YAML loader that reads 1e-6 as a number, as ROS does and YAML 1.1 does not."""
-    import yaml
-
-    loader: Any = type('Loader', (yaml.SafeLoader,), {})
-    number = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$')
-    loader.add_implicit_resolver('tag:yaml.org,2002:float', number, list('-+.0123456789'))
-    return loader
-
-
-def _in_one_line(error: Exception) -> str:
-    problem = getattr(error, 'problem', None) or str(error).splitlines()[0]
-    mark = getattr(error, 'problem_mark', None)
-    return f'{problem}, line {mark.line + 1}' if mark else problem

@@ -3,23 +3,24 @@
 `interface` declares every topic and service. `SimNode` is the node. `ShotClient` plays shots on a
 node, `Recorder` keeps what it publishes, and `SimulatorError` says why that failed. Users import
 these. The other names are for `cli` and `web_view`, which import this room; it imports neither.
+
+Nothing is loaded before it is asked for, so `ros_command` and `node_name` work without ROS.
 """
 
 from typing import TYPE_CHECKING
 
 from pool_sim_ros.lazy import lazy_exports
-from pool_sim_ros.ros import interface, messages
 
 if TYPE_CHECKING:
+    from pool_sim_ros.ros import interface, messages
     from pool_sim_ros.ros.client import ShotClient, SimulatorError
+    from pool_sim_ros.ros.command import ros_command
     from pool_sim_ros.ros.digest import digests
+    from pool_sim_ros.ros.environment import check_environment
+    from pool_sim_ros.ros.lasting_executor import LastingExecutor
     from pool_sim_ros.ros.mcap import write_bag
-    from pool_sim_ros.ros.process import (
-        init_ros,
-        leave_at_once,
-        ros_command,
-        shut_down_on_signals,
-    )
+    from pool_sim_ros.ros.names import NODE_NAME, node_name
+    from pool_sim_ros.ros.process import init_ros, leave_at_once, shut_down_on_signals
     from pool_sim_ros.ros.publishers import Publishers
     from pool_sim_ros.ros.recorder import Recorder
     from pool_sim_ros.ros.sim_node import SimNode
@@ -28,33 +29,43 @@ else:
     __getattr__ = lazy_exports(
         __name__,
         {
+            'LastingExecutor': 'lasting_executor',
+            'NODE_NAME': 'names',
             'Publishers': 'publishers',
             'Recorder': 'recorder',
             'ShotClient': 'client',
             'SimNode': 'sim_node',
             'SimulatorError': 'client',
             'SimulatorLink': 'simulator_link',
+            'check_environment': 'environment',
             'digests': 'digest',
             'init_ros': 'process',
+            'interface': 'interface',
             'leave_at_once': 'process',
-            'ros_command': 'process',
+            'messages': 'messages',
+            'node_name': 'names',
+            'ros_command': 'command',
             'shut_down_on_signals': 'process',
             'write_bag': 'mcap',
         },
     )
 
 __all__ = [
+    'LastingExecutor',
+    'NODE_NAME',
     'Publishers',
     'Recorder',
     'ShotClient',
     'SimNode',
     'SimulatorError',
     'SimulatorLink',
+    'check_environment',
     'digests',
     'init_ros',
     'interface',
     'leave_at_once',
     'messages',
+    'node_name',
     'ros_command',
     'shut_down_on_signals',
     'write_bag',

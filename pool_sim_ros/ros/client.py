@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+import math
 import time
 import uuid
 from collections.abc import Callable
@@ -14,12 +14,21 @@ from rclpy.context import Context
 from rclpy.subscription import Subscription
 from std_msgs.msg import Float64MultiArray, String
 
+from pool_sim_ros.console import CommandError
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.simulator_link import SimulatorLink
-from pool_sim_ros.simulator import Phase, stamp_to_seconds
+from pool_sim_ros.simulator import (
+    Phase,
+    response_from_json,
+    stamp_to_seconds,
+    state_from_json,
+)
 
 NAP = 0.1
 """Longest time between two checks of what it waits for, s."""
+
+RESEND = 1.0
+"""Time in s after which a request that is not answered is sent again, with the same id."""
 
 IDLE_STATES = 6
 """A shot is lost after so many states in a row, each of a later tick, without a shot and without a
@@ -27,7 +36,7 @@ pause. One is not enough: a shot begins one tick after it is computed, and the r
 is done may arrive late."""
 
 
-class SimulatorError(Exception):
+class SimulatorError(CommandError):
     """The simulator did not do what was asked; the message is for the user."""
 
 
@@ -53,14 +62,17 @@ class ShotClient:
         self._has_ended = has_ended
         self._link = SimulatorLink(context, simulator, 'client')
         self._requests = self._link.publisher(interface.SHOT_REQUEST)
-        self._responses = self._link.subscribe(interface.SHOT_RESPONSE, self._on_response)
-        self._link.subscribe(interface.STATE, self._on_state)
+        self._responses = self._link.subscribe_text(
+            interface.SHOT_RESPONSE, response_from_json, self._on_response
+        )
+        self._link.subscribe_text(interface.STATE, state_from_json, self._on_state)
         self._id = ''
         self._answers: list[dict[str, Any]] = []
         self._idle_states = 0
         self._tick = -1
         self._paused = False
         self._last_sign = time.monotonic()
+        self._warned = False
 
     @property
     def simulator(self) -> str:
@@ -72,7 +84,9 @@ class ShotClient:
         self._link.close()
 
     def wait_for_simulator(self, timeout: float) -> None:
-        """Wait until the simulator takes requests and its answers arrive.
+        """Wait until somebody takes requests and the answers of the simulator arrive.
+
+        Who takes requests need not be the simulator yet: `play` sends until it is answered.
 
         Parameters
         ----------
@@ -97,6 +111,7 @@ class ShotClient:
             f'no simulator answers as {self.simulator} (waited for {timeout:g} s); '
             'is sim_node running, with the same ROS_DOMAIN_ID?',
         )
+        self._warn_of_namesakes()
 
     def table_json(self, timeout: float) -> str:
         """Return the JSON of `~/table`, which `simulator.table_from_json` reads.
@@ -111,8 +126,15 @@ class ShotClient:
         SimulatorError
             If no table comes in that time.
         """
+        from pool_sim_ros.simulator import table_from_json  # loads the physics
+
+        def read(text: str) -> str:
+            table_from_json(text)
+            return text
+
         texts: list[str] = []
-        subscription = self._link.subscribe(interface.TABLE, lambda table: texts.append(table.data))
+        # Deep, so that what others send does not push it out before it is read.
+        subscription = self._link.subscribe_text(interface.TABLE, read, texts.append, depth=100)
         try:
             self._wait(
                 lambda: bool(texts),
@@ -160,19 +182,42 @@ class ShotClient:
         self._id = uuid.uuid4().hex
         self._answers.clear()
         what = {'velocity': velocity} if shot is None else {'shot': shot}
-        self._requests.publish(messages.to_json_string({'id': self._id, **what}))
-        self._wait(
-            lambda: bool(self._answers),
-            timeout,
-            f'{self.simulator} did not answer the request within {timeout:g} s',
-        )
+        self._ask(messages.to_json_string({'id': self._id, **what}), timeout)
+        self._warn_of_namesakes()
         if self._answers[0]['phase'] != Phase.REJECTED:
             on_accepted(self._answers[0])
             self._wait_for_rest(timeout, on_progress)
+            self._warn_of_namesakes()  # one may have been found only now
         response = self._answers[-1]
         if response['phase'] != Phase.DONE:
             raise SimulatorError(f'{response["phase"]} ({response["code"]}): {response["reason"]}')
         return response
+
+    def _ask(self, request: String, timeout: float) -> None:
+        """Send a request until it is answered; the simulator plays it once."""
+        last = -math.inf
+
+        def answered() -> bool:
+            nonlocal last
+            if not self._answers and time.monotonic() - last > RESEND:
+                last = time.monotonic()
+                self._requests.publish(request)
+            return bool(self._answers)
+
+        self._wait(
+            answered,
+            timeout,
+            f'{self.simulator} did not answer the request within {timeout:g} s',
+        )
+
+    def _warn_of_namesakes(self) -> None:
+        count = self._link.count_simulators()
+        if count > 1 and not self._warned:
+            self._warned = True
+            self._link.warn(
+                f'{count} nodes are named {self.simulator}: each plays the shot, and any of them '
+                'may answer; give each a name of its own'
+            )
 
     def _wait_for_rest(self, timeout: float, on_progress: Callable[[str], None] | None) -> None:
         self._idle_states = 0
@@ -198,7 +243,12 @@ class ShotClient:
 
         def on_velocities(message: Float64MultiArray) -> None:
             nonlocal moving
-            moving = int(np.count_nonzero(messages.from_rows(message).any(axis=1)))
+            try:
+                rows = messages.from_rows(message)
+            except ValueError as error:
+                self._link.left_out(f'ball_velocities: {error}')
+            else:
+                moving = int(np.count_nonzero(rows.any(axis=1)))
 
         def on_poses(message: PoseArray) -> None:
             self._last_sign = time.monotonic()
@@ -227,15 +277,13 @@ class ShotClient:
             raise SimulatorError('the simulator has ended')
         self._link.spin_once(NAP)
 
-    def _on_response(self, message: String) -> None:
+    def _on_response(self, response: dict[str, Any]) -> None:
         self._last_sign = time.monotonic()
-        response = json.loads(message.data)
         if response['id'] == self._id:
             self._answers.append(response)
 
-    def _on_state(self, message: String) -> None:
+    def _on_state(self, state: dict[str, Any]) -> None:
         self._last_sign = time.monotonic()
-        state = json.loads(message.data)
         self._paused = state['paused']
         if state['paused'] or state['moving'] or state['computing']:
             self._idle_states = 0

@@ -13,8 +13,7 @@ from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
-NODE_NAME = 'pool_sim'
-"""The node's name unless it is renamed."""
+from pool_sim_ros.ros.names import NODE_NAME as NODE_NAME
 
 BURST = 1000
 """Depth of the queues that must not lose a burst of commands or answers."""
@@ -69,12 +68,17 @@ def _qos(depth: int, latched: bool = False) -> QoSProfile:
 
 
 CUE_VELOCITY = Topic(
-    'cue_velocity', Twist, 'strike the cue ball: linear.x and linear.y, m/s', _qos(BURST)
+    'cue_velocity',
+    Twist,
+    'strike the cue ball: linear.x and linear.y, m/s; it has no id, so that a client cannot know '
+    'whether one was lost, nor send it again: use shot/request where that matters',
+    _qos(BURST),
 )
 SHOT_REQUEST = Topic(
     'shot/request',
     String,
-    '1 to 4, or JSON {"id": "...", "shot": 3} or {"id": "...", "velocity": [-4.0, 0.0]}',
+    '1 to 4, or JSON {"id": "...", "shot": 3} or {"id": "...", "velocity": [-4.0, 0.0]}; one '
+    'with an id may be sent again and again until it is answered: it is played once',
     _qos(BURST),
 )
 SHOT_RESPONSE = Topic(
@@ -84,7 +88,7 @@ SET_BALL_POSES = Topic(
     'set_ball_poses',
     PoseArray,
     'put all balls elsewhere while they rest: position.x and y of each, m, cue ball first; z and '
-    'orientation are ignored',
+    'orientation are ignored; header.frame_id is empty or the parameter frame_id',
     _qos(10),
 )
 BALL_POSES = Topic('ball_poses', PoseArray, 'each tick: every ball, cue ball first', _qos(10))
@@ -108,7 +112,10 @@ STATE = Topic(
 )
 TABLE = Topic('table', String, 'JSON: the fields of physics.Table', _qos(1, latched=True))
 MARKERS = Topic(
-    'markers', MarkerArray, 'the table, the balls, their labels and trails', _qos(10, latched=True)
+    'markers',
+    MarkerArray,
+    'the table, the balls, their labels and trails; a message that begins with DELETEALL holds all',
+    _qos(10, latched=True),
 )
 CLOCK = Topic('/clock', Clock, 'sim time, only with the parameter publish_clock', _qos(1))
 DIAGNOSTICS = Topic(

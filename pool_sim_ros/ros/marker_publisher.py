@@ -1,22 +1,15 @@
-"""When markers are sent: the table once, the rest when it changes and somebody looks."""
+"""When markers are sent: what changes while somebody looks, and all of it to whoever comes."""
 
 from __future__ import annotations
 
 import time
 
-import numpy as np
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from pool_sim_ros.physics import Table
 from pool_sim_ros.ros import interface
 from pool_sim_ros.ros.markers import Markers
 from pool_sim_ros.simulator import Frame
-
-LATCHED_CHANGES = 5
-"""Messages about moving things that a late viewer receives. Together with the table they must fit
-into the ten that a viewer usually keeps: it counts the messages of all publishers of a topic, and
-would otherwise drop the table."""
 
 LOOK_PERIOD = 0.1
 """Seconds between two looks for viewers; a look costs as much as a message."""
@@ -24,6 +17,9 @@ LOOK_PERIOD = 0.1
 
 class MarkerPublisher:
     """Publishes `~/markers`.
+
+    A message holds either what a frame changes or all there is. At rest the last one holds all, and
+    whoever comes is sent all: so no viewer needs more than the last message, whatever its depth.
 
     Parameters
     ----------
@@ -35,16 +31,12 @@ class MarkerPublisher:
     def __init__(self, node: Node, table: Table, frame_id: str) -> None:
         topic = interface.MARKERS
         self._markers = Markers(table, frame_id)
-        moving = QoSProfile(depth=LATCHED_CHANGES, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        # Two publishers of one topic, so that moving things do not push the latched table out.
-        self._once = node.create_publisher(topic.type, topic.private, topic.qos)
-        self._often = node.create_publisher(topic.type, topic.private, moving)
+        self._publisher = node.create_publisher(topic.type, topic.private, topic.qos)
         self._viewers = 0
         self._next_look = 0.0
         self._missed = False
-        self._seen: np.ndarray | None = None
-        self._once.publish(self._markers.table())
-        self._often.publish(self._markers.everything(table.positions))
+        self._frame: Frame | None = None
+        self._publisher.publish(self._markers.everything(table.positions))
 
     def frame(self, frame: Frame) -> None:
         """Send what a tick has changed.
@@ -53,12 +45,28 @@ class MarkerPublisher:
         what it missed.
         """
         came = self._look_for_viewers()
+        seen, self._frame = self._frame, frame
         if frame.moving and not self._viewers:
             self._missed = True
             return
-        if not (frame.block.moving or came) and frame.block.positions is self._seen:
+        resting = seen is not None and frame.block.positions is seen.block.positions
+        if resting and not (frame.block.moving or came or self._missed):
             return
-        self._seen = frame.block.positions
+        self._show(frame, came)
+
+    def look(self) -> None:
+        """Send all there is to a viewer that has come while no frames are shown."""
+        frame = self._frame
+        if frame is None or not self._look_for_viewers():
+            return
+        if self._missed:
+            self._markers.changes(
+                frame.positions, frame.collisions[:0], started=False, rolling=False
+            )
+            self._missed = False
+        self._publisher.publish(self._markers.everything(frame.positions))
+
+    def _show(self, frame: Frame, came: bool) -> None:
         changes = self._markers.changes(
             frame.positions,
             frame.collisions,
@@ -66,14 +74,10 @@ class MarkerPublisher:
             rolling=(frame.moving or frame.finished) and not self._missed,
         )
         self._missed = False
-        if changes is None and not came:
-            return
-        if changes is not None and self._viewers:
-            self._often.publish(changes)
-        # All of it, and after the changes: a late viewer receives only the last messages.
-        resting = changes is not None and not frame.moving
-        if resting or frame.started or came:
-            self._often.publish(self._markers.everything(frame.positions))
+        if came or frame.started or (changes is not None and not frame.moving):
+            self._publisher.publish(self._markers.everything(frame.positions))
+        elif changes is not None and self._viewers:
+            self._publisher.publish(changes)
 
     def _look_for_viewers(self) -> bool:
         """Return whether somebody has come since the last look; False if it is too early."""
@@ -81,5 +85,5 @@ class MarkerPublisher:
         if now < self._next_look:
             return False
         self._next_look = now + LOOK_PERIOD
-        before, self._viewers = self._viewers, self._often.get_subscription_count()
+        before, self._viewers = self._viewers, self._publisher.get_subscription_count()
         return self._viewers > before

@@ -27,13 +27,13 @@ FLASH_TIME = 150_000_000
 """Duration of a flash in the viewer's time, ns."""
 
 FLASHES = 32
-"""Most flashes at a time; a further one replaces the oldest."""
+"""Most flashes at a time, and in a message; a further one replaces the oldest."""
 
 _COLUMN = {name: index for index, name in enumerate(COLLISION_COLUMNS)}
 
 
 class Markers:
-    """Tells what to draw, and afterwards what has changed.
+    """Tells what to draw: all of it, or what has changed.
 
     A trail is the path of a ball since the strike. It ends at the ball, and its corners are exactly
     where the ball touched something.
@@ -54,7 +54,22 @@ class Markers:
         self._labels = [self._label(i) for i in range(len(table.balls))]
         self._trails = self._marker('trails', 0, Marker.LINE_LIST, (TRAIL_WIDTH, 0.0, 0.0))
         self._ends: dict[int, Point] = {}
+        self._clear_trails()
         self._flash_count = 0
+        self._flashes: list[Marker] = []
+        self._clean = self._marker('', 0, Marker.ARROW, (0.0, 0.0, 0.0))
+        self._clean.action = Marker.DELETEALL
+
+    def everything(self, positions: np.ndarray) -> MarkerArray:
+        """Return all there is, for balls at `positions`, (n, 2), m; a viewer needs nothing else.
+
+        It begins with the end of whatever a viewer shows under this topic: a simulator that was
+        here before may have had more balls. It holds the flashes of the latest change.
+        """
+        self._move(range(len(self._balls)), positions)
+        table = self.table().markers
+        moving = [*self._balls, *self._labels, self._trails, *self._flashes]
+        return MarkerArray(markers=[self._clean, *table, *moving])
 
     def table(self) -> MarkerArray:
         """Return what never changes: the cloth and the four cushions."""
@@ -79,11 +94,6 @@ class Markers:
             cushions.append(cushion)
         return MarkerArray(markers=[cloth, *cushions])
 
-    def everything(self, positions: np.ndarray) -> MarkerArray:
-        """Return all balls, labels and trails, for balls at `positions`, (n, 2), m."""
-        self._move(range(len(self._balls)), positions)
-        return MarkerArray(markers=[*self._balls, *self._labels, self._trails])
-
     def changes(
         self, positions: np.ndarray, collisions: np.ndarray, *, started: bool, rolling: bool
     ) -> MarkerArray | None:
@@ -101,19 +111,19 @@ class Markers:
             Whether the balls roll, or have just rolled to their rest. Balls that were placed
             elsewhere leave no trails.
         """
+        self._flashes = []
         moved = np.flatnonzero(np.any(positions != self._positions, axis=1)).tolist()
         if not (moved or len(collisions) or started):
             return None
         if started or not rolling:
             self._clear_trails()
             self._positions = positions.copy()
-        flashes = []
         for row in collisions:
             self._turn(row)
-            flashes.append(self._flash(row))
+        self._flashes = [self._flash(row) for row in collisions[-FLASHES:]]
         self._move(moved, positions, moved if rolling and not started else ())
         markers = [marker for i in moved for marker in (self._balls[i], self._labels[i])]
-        return MarkerArray(markers=[*markers, self._trails, *flashes])
+        return MarkerArray(markers=[*markers, self._trails, *self._flashes])
 
     def _move(
         self, balls: Sequence[int], positions: np.ndarray, rolling: Sequence[int] = ()
@@ -143,10 +153,13 @@ class Markers:
         start, end = (Point(x=x, y=y, z=TRAIL_HEIGHT) for _ in range(2))
         self._trails.points.extend((start, end))
         self._trails.colors.extend((color, color))
+        self._trails.action = Marker.ADD
         self._ends[ball] = end
         return end
 
     def _clear_trails(self) -> None:
+        # Viewers complain of lines without points, so there is no such marker then.
+        self._trails.action = Marker.DELETE
         self._trails.points = []
         self._trails.colors = []
         self._ends = {}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from collections.abc import Iterable
@@ -21,13 +22,13 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from pool_sim_ros.ros import interface
-from pool_sim_ros.ros.recorder import Recorded
+from pool_sim_ros.ros.sim_stamps import Recorded
 
 _BAG_VERSION: Final = 9  # of ROS 2 Jazzy
 _FOREVER = QosTime(2147483647, 4294967295)
 
 
-def write_bag(file: Path, messages: Iterable[Recorded]) -> None:
+def write_bag(file: Path, messages: Iterable[Recorded], *, replace: bool = True) -> None:
     """Write messages to a single MCAP file: all of them, or none.
 
     The file holds the definitions of the message types and the QoS of the topics, so that a player
@@ -36,14 +37,22 @@ def write_bag(file: Path, messages: Iterable[Recorded]) -> None:
     Parameters
     ----------
     file : Path
-        An existing file is replaced.
     messages : iterable of Recorded
+    replace : bool, optional
+        Whether an existing file is replaced.
+
+    Raises
+    ------
+    FileExistsError
+        If there is one, and it is not to be replaced.
     """
     with tempfile.TemporaryDirectory(prefix='.record_', dir=file.parent) as folder:
         bag = Path(folder, 'bag')
         with Writer(bag, version=_BAG_VERSION, storage_plugin=StoragePlugin.MCAP) as writer:
             _write(writer, messages)
         (written,) = bag.glob('*.mcap')
+        if not replace and file.exists():
+            raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(file))
         os.replace(written, file)
 
 

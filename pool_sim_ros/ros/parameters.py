@@ -21,12 +21,15 @@ from pool_sim_ros.simulator import (
     Settings,
     build_settings,
     coerce,
+    near_misses,
     values_from,
 )
 
 
 def declare_parameters(node: Node) -> Settings:
     """Check the values that were given at start-up, and declare all parameters with them.
+
+    A name that is nearly one of ours is warned of in the log of the node.
 
     Raises
     ------
@@ -37,6 +40,8 @@ def declare_parameters(node: Node) -> Settings:
     overrides = {name: parameter.value for name, parameter in node._parameter_overrides.items()}
     values = values_from(overrides)
     settings = build_settings(values)
+    for name, ours in near_misses(overrides).items():
+        node.get_logger().warn(f'{name} is not a parameter of this node; did you mean {ours}?')
     node.declare_parameters(
         '',
         [(name, values[name], describe(spec)) for name, spec in PARAMETERS.items()],
@@ -54,6 +59,8 @@ def describe(spec: ParameterSpec) -> ParameterDescriptor:
         additional_constraints=' or '.join(spec.choices),
     )
     if isinstance(spec.default, float):
+        if spec.smallest:
+            descriptor.additional_constraints = f'0, or at least {spec.smallest:g}'
         bounds = FloatingPointRange(from_value=float(spec.least), to_value=float(spec.most))
         descriptor.floating_point_range = [bounds]
     elif isinstance(spec.default, int) and not isinstance(spec.default, bool):
@@ -72,7 +79,7 @@ def on_change(node: Node, apply: Callable[[Settings], None]) -> None:
                 values[parameter.name] = coerce(parameter.name, parameter.value)
         return build_settings({name: coerce(name, value) for name, value in values.items()})
 
-    def whole_numbers_for_floats(parameters: list[Parameter]) -> list[Parameter]:
+    def in_their_own_types(parameters: list[Parameter]) -> list[Parameter]:
         return [_as_declared(parameter) for parameter in parameters]
 
     def check(parameters: list[Parameter]) -> SetParametersResult:
@@ -86,13 +93,15 @@ def on_change(node: Node, apply: Callable[[Settings], None]) -> None:
         if any(parameter.name in PARAMETERS for parameter in parameters):
             apply(settings_with([]))
 
-    node.add_pre_set_parameters_callback(whole_numbers_for_floats)
+    node.add_pre_set_parameters_callback(in_their_own_types)
     node.add_on_set_parameters_callback(check)
     node.add_post_set_parameters_callback(changed)
 
 
 def _as_declared(parameter: Parameter) -> Parameter:
-    spec = PARAMETERS.get(parameter.name)
-    if spec and isinstance(spec.default, float) and type(parameter.value) is int:
-        return Parameter(parameter.name, value=float(parameter.value))
-    return parameter
+    if parameter.name not in PARAMETERS:
+        return parameter
+    try:
+        return Parameter(parameter.name, value=coerce(parameter.name, parameter.value))
+    except ParameterError:
+        return parameter  # it is refused, with the reason, once all were looked at

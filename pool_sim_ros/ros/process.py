@@ -2,76 +2,34 @@
 
 from __future__ import annotations
 
-import argparse
-import functools
 import os
 import re
 import signal
 import sys
 import threading
-from collections.abc import Callable
+import warnings
 
 import rclpy
 from rclpy.context import Context
-from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
+from rclpy.exceptions import NameValidationException
 from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from pool_sim_ros.console import INTERRUPTED, CommandError, Main, console_command
+from pool_sim_ros.ros.environment import StartupError, check_arguments, check_environment
 
+NAME_ERRORS = (NameValidationException,)
+"""What ROS raises for a bad `__node` or `__ns`, and for names that are too long with them."""
 
-class StartupError(CommandError):
-    """ROS could not be brought up; the message is for the user."""
-
-
-NAME_ERRORS = (InvalidNamespaceException, InvalidNodeNameException)
-"""What the node's constructor raises for a bad `__node` or `__ns`."""
-
-
-def ros_command(
-    name: str,
-    parser: Callable[[], argparse.ArgumentParser],
-    *errors: type[Exception],
-    interrupted: str | None = None,
-    interrupt_status: int = INTERRUPTED,
-) -> Callable[[Callable[[Context, argparse.Namespace], int | None]], Main]:
-    """Return a decorator that makes the `main` of a command which takes part in ROS.
-
-    ROS is up before the function runs, and goes down after it. The function takes the context and
-    the parsed arguments; it returns the exit status, where None stands for 0.
-
-    Parameters
-    ----------
-    name : str
-        What the user calls the command.
-    parser : callable
-        Returns the parser of the arguments that are not for ROS.
-    *errors, interrupted, interrupt_status
-        As in `console.console_command`. Bad names of nodes and bad arguments for ROS are always
-        told in one line.
-    """
-
-    def decorate(run: Callable[[Context, argparse.Namespace], int | None]) -> Main:
-        @console_command(
-            name,
-            *NAME_ERRORS,
-            *errors,
-            interrupted=interrupted,
-            interrupt_status=interrupt_status,
-        )
-        @functools.wraps(run)
-        def main(args: list[str]) -> int | None:
-            options = parser().parse_args(without_ros_args(args))
-            context = init_ros(args)
-            try:
-                return run(context, options)
-            finally:
-                context.try_shutdown()
-
-        return main
-
-    return decorate
+NO_NODE = 'error creating node: '
+ARGUMENTS = 'the arguments cannot be read'
+STARTS = {
+    'failed to initialize rcl: ': 'ROS cannot start',
+    'failed to initialize logging: ': 'ROS cannot keep a log',
+    'Failed to parse ROS arguments: ': ARGUMENTS,
+    NO_NODE: 'ROS cannot make a node',
+}
+"""How the errors of rclpy begin, and what is told instead."""
 
 
 def without_ros_args(args: list[str]) -> list[str]:
@@ -82,6 +40,7 @@ def without_ros_args(args: list[str]) -> list[str]:
     StartupError
         If ROS cannot read its arguments, or a parameter file that they name.
     """
+    check_arguments(args)
     # The exception repeats what rcl logs about them.
     set_logger_level('rcl', LoggingSeverity.FATAL)
     try:
@@ -98,8 +57,12 @@ def init_ros(args: list[str]) -> Context:
     Raises
     ------
     StartupError
-        If ROS cannot read its arguments, or a parameter file that they name.
+        If ROS cannot read its arguments, or a parameter file that they name, or cannot start here.
     """
+    check_environment()
+    check_arguments(args)
+    # Printed beside the error that is told.
+    warnings.filterwarnings('ignore', 'Failed to fini rosout publisher', RuntimeWarning)
     set_logger_level('rcl', LoggingSeverity.FATAL)
     context = Context()
     try:
@@ -140,13 +103,22 @@ def leave_at_once(status: int) -> None:
     os._exit(status)
 
 
+def start_error(error: RuntimeError) -> StartupError | None:
+    """Return an error in one line where ROS could not make a node; None for any other error."""
+    message = str(error)
+    return StartupError(_explain(message)) if message.startswith(NO_NODE) else None
+
+
 def _explain(message: str) -> str:
-    message = re.sub(r', at \S+:\d+', '', message)
-    message = re.sub(r'^(failed to initialize rcl|Failed to parse ROS arguments): ', '', message)
-    pattern = r"Couldn't parse params file: '--params-file (.*)'\. Error: (.*)"
+    message = ' '.join(re.sub(r', at \S+:\d+', '', message).split())
+    start = next(filter(message.startswith, STARTS), '')
+    words, message = STARTS.get(start, ARGUMENTS), message.removeprefix(start)
+    if message.startswith(("Couldn't parse", 'Enclave name')):
+        words = ARGUMENTS
+    pattern = r"Couldn't parse params file: '--params-file (.*?)'\. Error: (.*)"
     found = re.match(pattern, message, re.S)
     if found is None:
-        return f'the arguments cannot be read: {message}'
+        return f'{words}: {message}'
     file, reason = found.groups()
     if 'opening' in reason:
         return f'the parameter file {file} cannot be opened'

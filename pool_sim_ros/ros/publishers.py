@@ -11,12 +11,15 @@ from rclpy.publisher import Publisher
 
 from pool_sim_ros.ros import cdr, interface, messages
 from pool_sim_ros.ros.marker_publisher import MarkerPublisher
+from pool_sim_ros.ros.namesakes import Namesakes
 from pool_sim_ros.simulator import (
     COLLISION_COLUMNS,
     VELOCITY_COLUMNS,
     Block,
+    Code,
     Diagnosis,
     Frame,
+    Phase,
     Response,
     Settings,
     table_to_json,
@@ -37,6 +40,7 @@ class Publishers:
         self.failed = False
         """Whether `fail` was called."""
         self._node = node
+        self._namesakes = Namesakes(node)
         self._to_poses = cdr.PosesWriter(settings.frame_id, settings.table.radii.tolist())
         self._to_velocities = cdr.RowsWriter('ball', VELOCITY_COLUMNS)
         self._to_collisions = cdr.RowsWriter('collision', COLLISION_COLUMNS)
@@ -77,14 +81,21 @@ class Publishers:
         self._markers.frame(frame)
 
     def clock(self, stamp: int) -> None:
-        """Send the sim time in ns, if `publish_clock` is set."""
+        """Send the sim time in ns, if `publish_clock` is set; send all to a new viewer."""
         if self._clock is not None:
             self._clock.publish(*cdr.clock_bytes([stamp]))
+        self._markers.look()
 
     def responses(self, responses: Sequence[Response]) -> None:
         """Send responses."""
         for response in responses:
             self._response.publish(messages.to_string(response.to_json()))
+            # What a request got at once is told by whoever took it.
+            told = (
+                response.phase in (Phase.DONE, Phase.PREEMPTED) and response.code is not Code.RESET
+            )
+            if told and response.reason is not None:
+                self._node.get_logger().warn(f'{response.phase.value}: {response.reason}')
 
     def state(self, state: dict[str, object]) -> None:
         """Send the state."""
@@ -95,9 +106,10 @@ class Publishers:
         self._table.publish(messages.to_string(table_to_json(settings.table)))
 
     def diagnostics(self, stamp: int, diagnosis: Diagnosis) -> None:
-        """Send how the node is doing, at a sim time in ns."""
+        """Send how the node is doing, at a sim time in ns; warn of nodes with its name."""
         name = self._node.get_fully_qualified_name()
         self._diagnostics.publish(messages.to_diagnostics(name, stamp, diagnosis))
+        self._namesakes.check()
 
     def tell(self, line: str) -> None:
         """Write to the log."""

@@ -1,11 +1,10 @@
-"""Keeps what a simulator publishes, as serialised bytes."""
+"""Keeps what a simulator publishes, as serialised bytes with their sim time."""
 
 from __future__ import annotations
 
-import json
 import time
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
 from geometry_msgs.msg import PoseArray
 from rclpy.context import Context
@@ -15,8 +14,9 @@ from std_msgs.msg import String
 
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.client import SimulatorError
+from pool_sim_ros.ros.sim_stamps import Heard, Recorded, in_sim_time
 from pool_sim_ros.ros.simulator_link import SimulatorLink
-from pool_sim_ros.simulator import seconds_to_stamp
+from pool_sim_ros.simulator import response_from_json, seconds_to_stamp
 
 TOPICS = (
     interface.TABLE,
@@ -28,7 +28,7 @@ TOPICS = (
     interface.COLLISIONS,
     interface.BALL_POSES,
 )
-"""The topics that are recorded.
+"""The topics that are recorded, beside `/clock` if it is published.
 
 The simulator learns of the subscriptions in this order. The last comes with every tick: once it
 arrives, the others do too.
@@ -39,15 +39,6 @@ _AT_ONCE = (interface.TABLE, interface.STATE, interface.MARKERS, interface.BALL_
 
 _DEPTH = 5000
 """Depth of the queues, in messages."""
-
-
-class Recorded(NamedTuple):
-    """A message: its time of arrival (wall time, ns), topic, full name of the topic, CDR bytes."""
-
-    time: int
-    topic: interface.Topic
-    name: str
-    data: bytes
 
 
 class Recorder:
@@ -62,11 +53,16 @@ class Recorder:
     """
 
     def __init__(self, context: Context, simulator: str) -> None:
-        self.messages: list[Recorded] = []
-        """All messages so far, in the order of their arrival."""
+        self._heard: list[Heard] = []
         self._link = SimulatorLink(context, simulator, 'recorder')
+        self._listen(interface.CLOCK)
         self._subscriptions = [self._listen(topic) for topic in TOPICS]
         self._link.start()
+
+    @property
+    def messages(self) -> list[Recorded]:
+        """All messages so far, with their sim time and in its order."""
+        return in_sim_time(list(self._heard))
 
     def close(self) -> None:
         """Listen no more."""
@@ -109,21 +105,38 @@ class Recorder:
         end = seconds_to_stamp(response['t_end'])
 
         def came() -> bool:
-            frames = [m.data for m in self.messages if m.topic is interface.BALL_POSES]
-            if len(frames) < 2:
+            stamps = [messages.from_time(pose.header.stamp) for pose in self._last_poses(2)]
+            if len(stamps) < 2 or stamps[0] < end:
                 return False
-            frame = deserialize_message(frames[-2], PoseArray)
-            if messages.from_time(frame.header.stamp) < end:
-                return False
-            texts = [m.data for m in self.messages if m.topic is interface.SHOT_RESPONSE]
-            answers = [json.loads(deserialize_message(text, String).data) for text in texts]
-            phases = [answer['phase'] for answer in answers if answer['id'] == response['id']]
-            return phases[-1:] == [response['phase']]
+            answers = [answer for answer in self._answers() if answer['id'] == response['id']]
+            return bool(answers) and answers[-1]['phase'] == response['phase']
 
         self._wait(came, timeout, 'did not send the end of the shot')
 
+    def _last_poses(self, count: int) -> list[PoseArray]:
+        """Return the last frames, in order; what is none is left out."""
+        poses: list[PoseArray] = []
+        for message in reversed(self._heard):
+            if len(poses) == count:
+                break
+            if message.topic is interface.BALL_POSES:
+                try:
+                    poses.insert(0, deserialize_message(message.data, PoseArray))
+                except Exception as error:  # whatever rclpy makes of bytes that are no message
+                    self._link.left_out(f'ball_poses: {error}')
+        return poses
+
+    def _answers(self) -> Iterator[dict[str, Any]]:
+        """Yield the responses, in order; what is none is left out."""
+        for message in list(self._heard):
+            if message.topic is interface.SHOT_RESPONSE:
+                try:
+                    yield response_from_json(deserialize_message(message.data, String).data)
+                except Exception as error:  # the same
+                    self._link.left_out(f'shot/response: {error}')
+
     def _hears_all(self) -> bool:
-        heard = {message.name for message in self.messages}
+        heard = {message.name for message in self._heard}
         return heard >= {self._link.full_name(topic) for topic in _AT_ONCE} and all(
             subscription.get_publisher_count() for subscription in self._subscriptions
         )
@@ -131,8 +144,8 @@ class Recorder:
     def _listen(self, topic: interface.Topic) -> Subscription:
         name = self._link.full_name(topic)
 
-        def keep(data: bytes) -> None:
-            self.messages.append(Recorded(time.time_ns(), topic, name, bytes(data)))
+        def keep(data: bytes, info: Mapping[str, int]) -> None:
+            self._heard.append(Heard(info['source_timestamp'], topic, name, bytes(data)))
 
         past = topic is not interface.SHOT_RESPONSE  # of which there may be a thousand
         return self._link.subscribe(topic, keep, depth=_DEPTH, past=past, raw=True)

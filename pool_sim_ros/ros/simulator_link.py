@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
@@ -17,7 +16,17 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.subscription import Subscription
 
 from pool_sim_ros.ros import interface
+from pool_sim_ros.ros.namesakes import count_nodes
 from pool_sim_ros.ros.spin_thread import SpinThread
+
+COMPLAINT_PERIOD = 1.0
+"""Least time in s between two lines of the log about what made no sense."""
+
+COMPLAINT_LENGTH = 300
+"""Characters of such a line: anybody may send anything."""
+
+
+T = TypeVar('T')
 
 
 class SimulatorLink:
@@ -71,7 +80,7 @@ class SimulatorLink:
     def subscribe(
         self,
         topic: interface.Topic,
-        callback: Callable[[Any], None],
+        callback: Callable[..., None],
         *,
         depth: int | None = None,
         past: bool = True,
@@ -83,7 +92,7 @@ class SimulatorLink:
         ----------
         topic : Topic
         callback : callable
-            Called with each message.
+            Called with each message, or with it and what ROS knows about it.
         depth : int, optional
             Depth of the queue, in messages; by default that of the topic.
         past : bool, optional
@@ -99,6 +108,37 @@ class SimulatorLink:
         name = topic.of(self._name)
         return self._node.create_subscription(topic.type, name, callback, qos, raw=raw)
 
+    def subscribe_text(
+        self,
+        topic: interface.Topic,
+        read: Callable[[str], T],
+        callback: Callable[[T], None],
+        *,
+        depth: int | None = None,
+    ) -> Subscription:
+        """Subscribe to a topic of texts; what `read` refuses with a ValueError is left out.
+
+        Parameters
+        ----------
+        topic : Topic
+        read : callable
+            Returns what a text says.
+        callback : callable
+            Called with that.
+        depth : int, optional
+            As in `subscribe`.
+        """
+
+        def on_text(message: Any) -> None:
+            try:
+                content = read(message.data)
+            except ValueError as error:
+                self.left_out(error)
+            else:
+                callback(content)
+
+        return self.subscribe(topic, on_text, depth=depth)
+
     def unsubscribe(self, subscription: Subscription) -> None:
         """End a subscription."""
         self._node.destroy_subscription(subscription)
@@ -107,11 +147,22 @@ class SimulatorLink:
         """Return a client of a service of the simulator."""
         return self._node.create_client(service.type, service.of(self._name))
 
-    @property
-    def logger(self) -> RcutilsLogger:
-        """Log of the node."""
-        logger: RcutilsLogger = self._node.get_logger()
-        return logger
+    def count_simulators(self) -> int:
+        """Return how many nodes have the full name of the simulator."""
+        return count_nodes(self._node, self.simulator)
+
+    def warn(self, line: str) -> None:
+        """Write a warning to the log of the node."""
+        self._node.get_logger().warn(line)
+
+    def left_out(self, reason: object) -> None:
+        """Write to the log, now and then, that something from the simulator made no sense."""
+        words = ' '.join(str(reason)[:COMPLAINT_LENGTH].split())
+        words = words.encode(
+            errors='backslashreplace'
+        ).decode()  # half a character cannot be logged
+        line = f'not understood, and left out: {words}'
+        self._node.get_logger().warn(line, throttle_duration_sec=COMPLAINT_PERIOD)
 
     def start(self) -> None:
         """Run the callbacks in a thread of the link's own, from now on."""

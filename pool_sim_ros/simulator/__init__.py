@@ -11,11 +11,14 @@ from typing import TYPE_CHECKING
 from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
+    from pool_sim_ros.simulator.bounded_file import FileError, open_bounded, read_text
     from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
     from pool_sim_ros.simulator.frame import COLLISION_COLUMNS, VELOCITY_COLUMNS, Block, Frame
     from pool_sim_ros.simulator.health import Diagnosis
+    from pool_sim_ros.simulator.heard import response_from_json, state_from_json
     from pool_sim_ros.simulator.output import Output
     from pool_sim_ros.simulator.pacer import Pacer
+    from pool_sim_ros.simulator.parameter_names import near_misses
     from pool_sim_ros.simulator.parameter_table import (
         PARAMETERS,
         Change,
@@ -26,7 +29,14 @@ if TYPE_CHECKING:
     from pool_sim_ros.simulator.replay import replay_frames
     from pool_sim_ros.simulator.runner import Runner
     from pool_sim_ros.simulator.settings import Settings, build_settings
-    from pool_sim_ros.simulator.shot_request import Phase, Response
+    from pool_sim_ros.simulator.shot_request import (
+        MAX_REQUEST_LENGTH,
+        Code,
+        Phase,
+        Response,
+        parse_request,
+        unreadable_request,
+    )
     from pool_sim_ros.simulator.sim_time import (
         NANOSECOND,
         SECOND_NS,
@@ -34,6 +44,7 @@ if TYPE_CHECKING:
         stamp_to_seconds,
     )
     from pool_sim_ros.simulator.simulation import Simulation
+    from pool_sim_ros.simulator.steps import Stepped
     from pool_sim_ros.simulator.table_json import table_from_json, table_to_json
 else:
     __getattr__ = lazy_exports(
@@ -42,10 +53,13 @@ else:
             'Block': 'frame',
             'COLLISION_COLUMNS': 'frame',
             'Change': 'parameter_table',
+            'Code': 'shot_request',
             'CommandLog': 'command_log',
             'Diagnosis': 'health',
+            'FileError': 'bounded_file',
             'Frame': 'frame',
             'LogError': 'command_log',
+            'MAX_REQUEST_LENGTH': 'shot_request',
             'NANOSECOND': 'sim_time',
             'Output': 'output',
             'PARAMETERS': 'parameter_table',
@@ -58,16 +72,24 @@ else:
             'SECOND_NS': 'sim_time',
             'Settings': 'settings',
             'Simulation': 'simulation',
+            'Stepped': 'steps',
             'VELOCITY_COLUMNS': 'frame',
             'build_settings': 'settings',
             'coerce': 'parameter_values',
             'default_values': 'parameter_table',
+            'parse_request': 'shot_request',
+            'near_misses': 'parameter_names',
+            'open_bounded': 'bounded_file',
             'read_log': 'command_log',
+            'read_text': 'bounded_file',
             'replay_frames': 'replay',
+            'response_from_json': 'heard',
             'seconds_to_stamp': 'sim_time',
             'stamp_to_seconds': 'sim_time',
+            'state_from_json': 'heard',
             'table_from_json': 'table_json',
             'table_to_json': 'table_json',
+            'unreadable_request': 'shot_request',
             'values_from': 'parameter_values',
         },
     )
@@ -76,10 +98,13 @@ __all__ = [
     'Block',
     'COLLISION_COLUMNS',
     'Change',
+    'Code',
     'CommandLog',
     'Diagnosis',
+    'FileError',
     'Frame',
     'LogError',
+    'MAX_REQUEST_LENGTH',
     'NANOSECOND',
     'Output',
     'PARAMETERS',
@@ -92,15 +117,23 @@ __all__ = [
     'SECOND_NS',
     'Settings',
     'Simulation',
+    'Stepped',
     'VELOCITY_COLUMNS',
     'build_settings',
     'coerce',
     'default_values',
+    'parse_request',
+    'near_misses',
+    'open_bounded',
     'read_log',
+    'read_text',
     'replay_frames',
+    'response_from_json',
     'seconds_to_stamp',
     'stamp_to_seconds',
+    'state_from_json',
     'table_from_json',
     'table_to_json',
+    'unreadable_request',
     'values_from',
 ]

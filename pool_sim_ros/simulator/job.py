@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import threading
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics import Integrator, Table, Trajectory, simulate
 from pool_sim_ros.simulator.settings import Settings
+
+MOST_SLICES = 2_000_000_000
+"""Slices in a shot: what parameters in their ranges ask for would else be computed for days."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,9 +39,14 @@ class Job:
     integrator: Integrator
     time_slice: float
     until: float
+    _cancelled: threading.Event = field(default_factory=threading.Event, init=False, repr=False)
+
+    def cancel(self) -> None:
+        """Let `run` come to its end soon, with ShotCancelled: nobody wants the shot any more."""
+        self._cancelled.set()
 
     def run(self) -> Trajectory:
-        """Compute the shot; this takes microseconds to seconds, mostly without the GIL."""
+        """Compute the shot; this takes microseconds to minutes, mostly without the GIL."""
         return simulate(
             self.table,
             self.velocity,
@@ -45,6 +54,7 @@ class Job:
             integrator=self.integrator,
             time_slice=self.time_slice,
             until=self.until,
+            cancelled=self._cancelled.is_set,
         )
 
 
@@ -66,11 +76,15 @@ def make_job(
     positions : ndarray of shape (n, 2)
         Where the balls rest, from which any other shot starts, m.
     """
+    integrator = settings.integrator if shot is None else settings.report_integrator
+    until = settings.max_shot_duration
+    if integrator == 'time_slice':
+        until = min(until, MOST_SLICES * settings.time_slice)
     return Job(
         table=settings.table,
         velocity=velocity,
         positions=positions if shot is None else settings.table.positions,
-        integrator=settings.integrator if shot is None else settings.report_integrator,
+        integrator=integrator,
         time_slice=settings.time_slice,
-        until=settings.max_shot_duration,
+        until=until,
     )

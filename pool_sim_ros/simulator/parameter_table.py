@@ -23,6 +23,11 @@ class Change(Enum):
     NOW = 'counts at once'
 
 
+SMALLEST = 1e-6
+"""Least value beside 0 of a number whose range begins there. What comes near 1e-308 overflows where
+something is divided by it, and means nothing on a table."""
+
+
 @dataclass(frozen=True)
 class ParameterSpec:
     """One parameter.
@@ -37,10 +42,14 @@ class ParameterSpec:
     change : Change
     least, most : float
         Range of a number, both ends included.
+    smallest : float
+        Where the range begins at 0: the least value beside 0.
     choices : tuple of str
         What a string may be; none = anything.
     may_be_empty : bool
         Whether a string may be empty.
+    is_frame : bool
+        Whether a string is the name of a frame.
     """
 
     name: str
@@ -49,8 +58,10 @@ class ParameterSpec:
     change: Change = Change.NEVER
     least: float = -math.inf
     most: float = math.inf
+    smallest: float = 0.0
     choices: tuple[str, ...] = ()
     may_be_empty: bool = False
+    is_frame: bool = False
 
     @property
     def holds_strings(self) -> bool:
@@ -78,11 +89,27 @@ def _parameters() -> tuple[ParameterSpec, ...]:
         spec('table.width', table.width, 'y size between the cushions, m', least=0.01, most=1e3),
         spec('table.gravity', table.gravity, 'm/s^2', least=0.01, most=1e3),
         *(
-            spec(f'table.{name}', getattr(table, name), f'coefficient of {doc}', strike, least, 10)
+            spec(
+                f'table.{name}',
+                getattr(table, name),
+                f'coefficient of {doc}',
+                strike,
+                least,
+                10,
+                smallest=0.0 if least else SMALLEST,
+            )
             for name, doc, least in friction
         ),
         *(
-            spec(f'table.{name}', getattr(table, name), f'coefficient of {doc}', strike, 0.0, 1.0)
+            spec(
+                f'table.{name}',
+                getattr(table, name),
+                f'coefficient of {doc}',
+                strike,
+                0.0,
+                1.0,
+                smallest=SMALLEST,
+            )
             for name, doc in restitution
         ),
         spec(
@@ -136,10 +163,11 @@ def _parameters() -> tuple[ParameterSpec, ...]:
             now,
             0.0,
             1e4,
+            smallest=SMALLEST,
         ),
         spec('step_ticks', 1, 'ticks that ~/step advances', now, 1, 1000),
         spec('publish_rate', 60, 'frames per second of sim time', least=1, most=1000),
-        spec('frame_id', 'table', 'frame of all that is published'),
+        spec('frame_id', 'table', 'frame of all that is published', is_frame=True),
         spec('publish_clock', False, 'whether to publish /clock'),
         spec('start_paused', False, 'whether to start paused'),
         spec(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
+import re
+import reprlib
 import sys
 from collections.abc import Iterable, Mapping
 from typing import TypeGuard
 
+from pool_sim_ros.simulator.parameter_names import GROUPS, near_misses
 from pool_sim_ros.simulator.parameter_table import (
     BALL_LISTS,
     PARAMETERS,
@@ -17,6 +19,17 @@ from pool_sim_ros.simulator.parameter_table import (
 
 SHOWN_LENGTH = 60
 """Characters of a wrong value that a message shows."""
+
+
+TRUTHS = {'true': True, 'True': True, 'TRUE': True}
+TRUTHS |= {'false': False, 'False': False, 'FALSE': False}
+"""How YAML writes a bool; some tools send it as a string."""
+
+LONGEST_NUMBER = 100
+"""Characters of a number that is written as a string: no sensible one has 30."""
+
+_NUMBER = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?', re.ASCII)
+"""How a number is written; YAML 1.1, and so `ros2 param set`, takes 1e-6 for a string."""
 
 
 class ParameterError(ValueError):
@@ -30,18 +43,16 @@ def values_from(overrides: Mapping[str, object]) -> dict[str, ParameterValue]:
     ----------
     overrides : mapping
         Name -> value; names that are not the node's are ignored, unless they start with
-        ``table.`` or ``balls.``.
+        ``table.`` or ``balls.`` and are close to one of its own.
 
     Raises
     ------
     ParameterError
         Where a name is misspelt, a type is wrong, or some but not all of ``balls.*`` are given.
     """
-    for name in overrides:
-        if name not in PARAMETERS and name.startswith(('table.', 'balls.')):
-            close = difflib.get_close_matches(name, PARAMETERS, 1)
-            hint = f'did you mean {close[0]}?' if close else 'see config/report.yaml for the names'
-            raise ParameterError(f'{name} is not a parameter; {hint}')
+    for name, ours in near_misses(overrides).items():
+        if name.startswith(GROUPS):
+            raise ParameterError(f'{name} is not a parameter; did you mean {ours}?')
     lists = [f'balls.{name}' for name in BALL_LISTS]
     missing = [name for name in lists if name not in overrides]
     if 0 < len(missing) < len(lists):
@@ -51,7 +62,9 @@ def values_from(overrides: Mapping[str, object]) -> dict[str, ParameterValue]:
 
 
 def coerce(name: str, value: object) -> ParameterValue:
-    """Return the value of a parameter in its own type; a whole number may stand for a float.
+    """Return the value of a parameter in its own type.
+
+    A whole number may stand for a float, and a string for the number or the bool that it spells.
 
     Raises
     ------
@@ -62,9 +75,10 @@ def coerce(name: str, value: object) -> ParameterValue:
     if isinstance(spec.default, list):
         return _coerce_list(spec, value)
     if isinstance(spec.default, bool):
-        if not isinstance(value, bool):
+        truth = TRUTHS.get(value) if isinstance(value, str) else value
+        if not isinstance(truth, bool):
             raise _wrong(name, 'true or false', value)
-        return value
+        return truth
     if isinstance(spec.default, str):
         return _coerce_string(spec, value)
     return _coerce_number(spec, value)
@@ -87,6 +101,8 @@ def coerce_all(values: Mapping[str, object]) -> dict[str, ParameterValue]:
 def _coerce_string(spec: ParameterSpec, value: object) -> str:
     if not isinstance(value, str) or (value == '' and not spec.may_be_empty):
         raise _wrong(spec.name, 'a string', value)
+    if spec.is_frame and value.startswith('/'):
+        raise _wrong(spec.name, 'a name without a slash before it, as tf2 has them', value)
     if spec.choices and value not in spec.choices:
         raise _wrong(spec.name, ' or '.join(spec.choices), value)
     return value
@@ -95,13 +111,18 @@ def _coerce_string(spec: ParameterSpec, value: object) -> str:
 def _coerce_number(spec: ParameterSpec, value: object) -> float:
     whole = isinstance(spec.default, int)
     wanted = f'{"a whole number" if whole else "a number"} from {spec.least:g} to {spec.most:g}'
-    if not (_is_number(value) and spec.least <= value <= spec.most):
+    if spec.smallest:
+        wanted += f' (0, or at least {spec.smallest:g})'
+    number = _read_number(value)
+    if not (_is_number(number) and spec.least <= number <= spec.most):
+        raise _wrong(spec.name, wanted, value)
+    if 0.0 < number < spec.smallest:
         raise _wrong(spec.name, wanted, value)
     if not whole:
-        return float(value)
-    if value != int(value):
+        return float(number)
+    if number != int(number):
         raise _wrong(spec.name, wanted, value)
-    return int(value)
+    return int(number)
 
 
 def _coerce_list(spec: ParameterSpec, value: object) -> list[str] | list[float]:
@@ -117,10 +138,18 @@ def _coerce_list(spec: ParameterSpec, value: object) -> list[str] | list[float]:
         raise _wrong(spec.name, 'a list of numbers', value)
     numbers = []
     for index, item in enumerate(items):
-        if not _is_number(item):
+        number = _read_number(item)
+        if not _is_number(number):
             raise _wrong(f'{spec.name}[{index}]', 'a finite number', item)
-        numbers.append(float(item))
+        numbers.append(float(number))
     return numbers
+
+
+def _read_number(value: object) -> object:
+    """Return the number that a string spells, and anything else as it is."""
+    if not isinstance(value, str) or len(value) > LONGEST_NUMBER:
+        return value
+    return float(value) if _NUMBER.fullmatch(value.strip()) else value
 
 
 def _is_number(value: object) -> TypeGuard[int | float]:
@@ -130,6 +159,15 @@ def _is_number(value: object) -> TypeGuard[int | float]:
 
 
 def _wrong(name: str, wanted: str, value: object) -> ParameterError:
-    shown = repr(value)
-    shown = shown if len(shown) <= SHOWN_LENGTH else shown[:SHOWN_LENGTH] + '...'
-    return ParameterError(f'{name} must be {wanted}, not {shown}')
+    return ParameterError(f'{name} must be {wanted}, not {_shown(value)}')
+
+
+def _shown(value: object) -> str:
+    """Return a value in brief; anybody may have written it."""
+    if isinstance(value, int) and abs(value) > sys.float_info.max:
+        return 'a number beyond all floats'  # str() refuses it, or takes long
+    try:
+        shown = reprlib.repr(value) if isinstance(value, list | tuple | dict) else repr(value)
+    except ValueError:
+        return f'a {type(value).__name__}'
+    return shown if len(shown) <= SHOWN_LENGTH else shown[:SHOWN_LENGTH] + '...'

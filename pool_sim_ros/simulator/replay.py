@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from pool_sim_ros.simulator.command_log import LogError
@@ -36,7 +34,7 @@ def replay_frames(settings: Settings, commands: Sequence[dict[str, Any]]) -> Ite
     LogError
         At a command that cannot be carried out; names the tick.
     """
-    simulation = Simulation(_without_speed_limit(settings))
+    simulation = Simulation(settings)
     for command in commands:
         while simulation.next_tick < command['tick']:
             yield simulation.next_frame()[0]
@@ -49,11 +47,6 @@ def replay_frames(settings: Settings, commands: Sequence[dict[str, Any]]) -> Ite
     yield simulation.next_frame()[0]
     while not simulation.at_rest:
         yield simulation.next_frame()[0]
-
-
-def _without_speed_limit(settings: Settings) -> Settings:
-    """Return settings that reject no strike for its speed: those in a log were all accepted."""
-    return replace(settings, max_cue_speed=math.inf)
 
 
 def _carry_out(simulation: Simulation, command: dict[str, Any]) -> None:
@@ -81,7 +74,7 @@ def _changed(settings: Settings, parameters: dict[str, object]) -> Settings:
     for name in parameters:
         if PARAMETERS[name].change is Change.NEVER:
             raise ParameterError(f'{name} is {Change.NEVER.value}')
-    return _without_speed_limit(build_settings({**values_of(settings), **parameters}))
+    return build_settings({**values_of(settings), **parameters})
 
 
 def _play(simulation: Simulation, request: Request) -> None:

@@ -7,20 +7,29 @@ import threading
 import time
 import traceback
 from collections.abc import Sequence
+from concurrent.futures import Future
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics import Trajectory, compile_kernels
+from pool_sim_ros.physics import ShotCancelled, Trajectory, compile_kernels
 from pool_sim_ros.simulator.command_log import CommandLog
 from pool_sim_ros.simulator.health import Health, energy_rise
 from pool_sim_ros.simulator.job import Job
+from pool_sim_ros.simulator.naps import is_just_before, nap
 from pool_sim_ros.simulator.output import Output
 from pool_sim_ros.simulator.pacer import Pacer
 from pool_sim_ros.simulator.settings import Settings
-from pool_sim_ros.simulator.shot_request import Phase, Response
+from pool_sim_ros.simulator.shot_request import (
+    Phase,
+    Request,
+    Response,
+    parse_request,
+    twist_request,
+)
 from pool_sim_ros.simulator.sim_time import stamp_to_seconds
 from pool_sim_ros.simulator.simulation import Simulation
+from pool_sim_ros.simulator.steps import Stepped, Steps
 from pool_sim_ros.simulator.worker import Worker
 
 STATE_PERIOD = 1.0
@@ -29,27 +38,11 @@ STATE_PERIOD = 1.0
 PAUSED_CLOCK_PERIOD = 0.1
 """Seconds between two clock messages while paused: a late subscriber must not wait long."""
 
-LONGEST_NAP = 0.05
-"""Longest sleep of the playback thread, s: it bounds how long resuming and stopping take."""
-
-HEAD_START = 8e-4
-"""Seconds before a frame is due at which a second, short sleep starts: it ends more exactly than a
-long one."""
-
 LONGEST_BATCH = 0.002
 """Longest row of frames under the lock, in s of wall time: it bounds how long a request waits."""
 
-SHORTEST_NAP = 1e-4
-"""Seconds for which the lock is free between two batches: a waiting thread can take it."""
-
-BUSY_NAP = 1e-3
-"""The same while requests keep coming: they need their share of the interpreter."""
-
 BUSY_PERIOD = 0.05
 """Seconds after a request in which another one is expected."""
-
-STEP_PATIENCE = 5.0
-"""Seconds for which a step waits for the shot that is being computed, to show it."""
 
 HEALTH_PERIOD = 1.0
 """Seconds between two diagnostics; their readers expect one a second."""
@@ -80,26 +73,33 @@ class Runner:
         self._pacer = Pacer(settings.publish_rate, settings.real_time_factor)
         self._output = output
         self._lock = threading.Lock()
-        self._computed = threading.Condition(self._lock)
+        self._steps = Steps(self._simulation, self._show_next_frame)
         self._stopping = threading.Event()
         self._shown_state: dict[str, object] = {}
         now = time.monotonic()
         self._last_request = self._next_state = self._next_clock = self._next_health = now
         output.table(settings)
-        self._worker = Worker('compute')
-        self._worker.submit(self._prepare)
+        self._worker = Worker('compute', self._prepare)
         self._playing = threading.Thread(target=self._play, name='playback', daemon=True)
         self._playing.start()
 
     def request(self, text: str) -> Response:
         """Take and answer a request as `~/shot/request` carries it."""
-        with self._lock:
-            return self._answer(*self._simulation.request(text))
+        return self.take(parse_request(text))
 
     def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Response:
         """Take and answer a twist of the cue ball, (3,) m/s and (3,) rad/s."""
+        return self.take(twist_request(linear, angular))
+
+    def take(self, request: Request) -> Response:
+        """Take and answer a request."""
         with self._lock:
-            return self._answer(*self._simulation.strike(linear, angular))
+            return self._answer(*self._simulation.take(request))
+
+    def refuse(self, reason: str) -> None:
+        """Note that a command was refused before it was read."""
+        with self._lock:
+            self._health.rejected(reason)
 
     def reset(self) -> bool:
         """Put the balls back on the start layout; return whether a shot was preempted."""
@@ -107,14 +107,13 @@ class Runner:
             preempted = self._simulation.reset()
             self._output.responses(preempted)
             self._show_state()
-            self._computed.notify_all()
             return bool(preempted)
 
-    def place(self, positions: NDArray[np.float64]) -> str | None:
-        """Put the balls at (k, 2) positions in m; return why this cannot be, or None."""
+    def place(self, positions: NDArray[np.float64], frame_id: str = '') -> str | None:
+        """Put the balls at (k, 2) positions in m in a frame; return why this cannot be, or None."""
         with self._lock:
             self._last_request = time.monotonic()
-            refusal = self._simulation.place(positions)
+            refusal = self._simulation.place(positions, frame_id)
             if refusal is not None:
                 self._health.rejected(f'set_ball_poses: {refusal}')
             return refusal
@@ -126,17 +125,13 @@ class Runner:
             self._pacer.restart()
             self._show_state()
 
-    def step(self) -> tuple[bool, str]:
-        """Advance by `step_ticks` while paused; return whether this was done, and a message."""
-        simulation = self._simulation
+    def step(self) -> Future[Stepped]:
+        """Advance by `step_ticks` while paused; the result says whether this was done, and more.
+
+        While a shot is being computed the result comes later, from another thread.
+        """
         with self._lock:
-            if not simulation.paused:
-                return False, 'only a paused table can be stepped; call set_paused first'
-            if not self._computed.wait_for(lambda: not simulation.computing, STEP_PATIENCE):
-                return False, 'a shot is still being computed; step again once state says it is not'
-            for _ in range(simulation.settings.step_ticks):
-                self._show_next_frame()
-            return True, f'at tick {simulation.tick}'
+            return self._steps.add()
 
     def apply(self, settings: Settings) -> None:
         """Take new settings; what concerns a shot counts from the next strike."""
@@ -154,6 +149,7 @@ class Runner:
         self._playing.join()
         with self._lock:  # the other thread may be handing over a result
             self._simulation.close()
+            self._steps.close()
         return self._worker.stop(timeout)
 
     @property
@@ -197,6 +193,8 @@ class Runner:
             result = job.run()
             took = time.monotonic() - start
             rise = energy_rise(result)
+        except ShotCancelled:
+            return
         except Exception as error:
             result, took = error, time.monotonic() - start
         try:
@@ -206,7 +204,6 @@ class Runner:
                     self._output.responses(self._simulation.computed(job, result))
                     self._look_ahead()
                     self._show_state()
-                    self._computed.notify_all()
         except Exception:
             self._fail('a shot could not be taken over')
 
@@ -215,21 +212,16 @@ class Runner:
         try:
             while not self._stopping.is_set():
                 with self._lock:
+                    self._steps.serve()
                     wait = self._show_due_frames()
                     if not just_before:
                         self._show_signs_of_life()
                         self._look_ahead()
-                time.sleep(self._nap(wait))
-                just_before = HEAD_START < wait <= LONGEST_NAP and not just_before
+                    wait = min(wait, self._steps.wait)
+                time.sleep(nap(wait, time.monotonic() - self._last_request < BUSY_PERIOD))
+                just_before = is_just_before(wait) and not just_before
         except Exception:
             self._fail('playback failed')
-
-    def _nap(self, wait: float) -> float:
-        """Return for how long to sleep in s, where the next frame is due in `wait` s."""
-        if wait > 0.0:
-            return min(wait - HEAD_START if wait > HEAD_START else wait, LONGEST_NAP)
-        busy = time.monotonic() - self._last_request < BUSY_PERIOD
-        return BUSY_NAP if busy else SHORTEST_NAP
 
     def _look_ahead(self) -> None:
         """Prepare what comes next while there is time for it."""

@@ -16,6 +16,12 @@ _BALL_FIELDS = dict(
 )
 """Field of `Ball` for each of the parameters ``balls.*``."""
 
+FRAME_LENGTH = 60
+"""Characters of a frame that a message shows: anybody may have sent it."""
+
+MESSAGE_LENGTH = 400
+"""Characters of a message: it may name labels, and those may have any length."""
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -39,6 +45,12 @@ class Settings:
     def deviations(self) -> list[str]:
         """Differences from the run that the report printed, in words; empty = none."""
         return deviations(self.table, self.report_integrator, self.time_slice)
+
+    def frame_fault(self, frame_id: str) -> str:
+        """Return why positions cannot be in a frame; empty where they can, as in an empty one."""
+        if frame_id in ('', self.frame_id):
+            return ''
+        return f'the frame is {frame_id[:FRAME_LENGTH]!r}; it must be {self.frame_id!r}, or empty'
 
 
 def build_settings(values: Mapping[str, Any]) -> Settings:
@@ -65,7 +77,7 @@ def build_settings(values: Mapping[str, Any]) -> Settings:
     except ParameterError:
         raise
     except ValueError as error:
-        raise ParameterError(str(error)) from error
+        raise ParameterError(str(error)[:MESSAGE_LENGTH]) from error
 
 
 def values_of(settings: Settings) -> dict[str, ParameterValue]:

@@ -152,6 +152,11 @@ def parse_request(text: str) -> Request:
     return _parse_fields(fields, text)
 
 
+def unreadable_request(reason: str) -> Request:
+    """Return the request that stands for a message that nobody could read."""
+    return _bad(reason)
+
+
 def twist_request(linear: Sequence[float], angular: Sequence[float]) -> Request:
     """Turn a twist of the cue ball into a request.
 

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.me212 import cue_velocity
-from pool_sim_ros.physics import ShotTooLong, Trajectory, check_layout
+from pool_sim_ros.physics import ShotTooLong, Trajectory
 from pool_sim_ros.simulator import responses
 from pool_sim_ros.simulator.command_log import CommandLog
 from pool_sim_ros.simulator.frame import Block, Frame
-from pool_sim_ros.simulator.job import Job, make_job
+from pool_sim_ros.simulator.job import MOST_SLICES, Job, make_job
+from pool_sim_ros.simulator.next_layout import next_layout, why_refused
 from pool_sim_ros.simulator.playback import Motion, Playback
 from pool_sim_ros.simulator.request_history import RequestHistory
 from pool_sim_ros.simulator.settings import Settings
@@ -32,23 +33,26 @@ class _Shot:
     """The shot in hand: from its acceptance until all balls rest, or until it is preempted."""
 
     request_id: str
+    content: str
     response: Response
     job: Job
     settings: Settings
     trajectory: Trajectory | None = None
 
 
+Taken = tuple[Response, Job | None]
+
+
 class Simulation:
     """One table: takes requests, answers them, and plays the shots.
 
     It never waits: its owner computes the jobs that it hands out, and brings back the results.
-    At most one shot is in hand at a time.
+    At most one shot is in hand at a time. `settings` and `paused` are plain attributes.
 
     Parameters
     ----------
     settings : Settings
-        May be replaced at any time: `settings` is a plain attribute. What concerns a shot counts
-        from the next strike; the balls, the table's size and the rate must stay.
+        May be replaced at any time. What concerns a shot counts from the next strike.
     history : RequestHistory, optional
         Which request got which response.
     log : CommandLog, optional
@@ -56,7 +60,6 @@ class Simulation:
 
     Attributes
     ----------
-    settings : Settings
     paused : bool
         Whether its owner asks for no frames; it answers requests all the same.
     """
@@ -106,23 +109,16 @@ class Simulation:
         """Sim time of `tick`, ns."""
         return self._playback.stamp
 
-    def request(self, text: str) -> tuple[Response, Job | None]:
+    def request(self, text: str) -> Taken:
         """Take a request as `~/shot/request` carries it; returns as `take` does."""
         return self.take(parse_request(text))
 
-    def strike(
-        self, linear: Sequence[float], angular: Sequence[float]
-    ) -> tuple[Response, Job | None]:
+    def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Taken:
         """Take a twist of the cue ball, (3,) m/s and (3,) rad/s; returns as `take` does."""
         return self.take(twist_request(linear, angular))
 
     def take(self, request: Request) -> tuple[Response, Job | None]:
-        """Take a request.
-
-        Parameters
-        ----------
-        request : Request
-            Without an id it gets one, unless it is unreadable.
+        """Take a request; without an id it gets one, unless it is unreadable.
 
         Returns
         -------
@@ -138,7 +134,10 @@ class Simulation:
             request = replace(request, id=request_id)
         else:
             request_id = request.id
-            known = self._history.find(request_id)
+            if self._history.is_made(request_id):
+                reason = f'ids that begin with {self._history.prefix} are made here; choose another'
+                return responses.rejected(request, Code.BAD_REQUEST, reason), None
+            known = self._find(request_id)
             if known is not None:
                 return responses.repeated(request, *known), None
         job = None
@@ -146,10 +145,11 @@ class Simulation:
             response = responses.rejected(request, request.code, request.reason)
         else:
             response, job = self._consider(request)
-        self._history.add(request_id, request.content, response)
-        if job is not None:
+        if job is None:
+            self._history.add(request_id, request.content, response)
+        else:
             self._playback.strike()
-            self._shot = _Shot(request_id, response, job, self.settings)
+            self._shot = _Shot(request_id, request.content, response, job, self.settings)
         return response, job
 
     def computed(self, job: Job, result: Trajectory | Exception) -> list[Response]:
@@ -165,6 +165,8 @@ class Simulation:
         if not result.complete:
             self._playback.abandon()
             limit = f'max_shot_duration, {job.until:g} s'
+            if job.until < shot.settings.max_shot_duration:
+                limit = f'{MOST_SLICES:g} slices of time_slice, {job.until:g} s'
             reason = f'the balls would move for longer than {limit}'
             return [self._preempt(shot, Code.TOO_LONG, reason)]
         shot.trajectory = result
@@ -179,30 +181,22 @@ class Simulation:
             return []
         return [self._preempt(self._shot, Code.RESET, 'the table was reset', start_time)]
 
-    def place(self, positions: NDArray[np.float64]) -> str | None:
+    def place(self, positions: NDArray[np.float64], frame_id: str = '') -> str | None:
         """Put all balls elsewhere.
 
         Parameters
         ----------
         positions : ndarray of shape (k, 2)
-            In the order of the balls, m.
+            In the order of the balls, m, in the frame `frame_id`; empty is the node's.
 
-        Returns
-        -------
-        str or None
-            Why this cannot be, and nothing has changed; None where it was done.
+        Returns why this cannot be, and nothing has changed, or None where it was done.
         """
-        table = self.settings.table
-        if len(positions) != len(table.balls):
-            return f'{len(positions)} positions; the table has {len(table.balls)} balls'
-        if not self.at_rest:
-            return f'{self._occupation}; wait for done or reset'
-        try:
-            check_layout(table, positions)
-        except ValueError as error:
-            return str(error)
-        self._lay_out(np.array(positions))
-        return None
+        reason = why_refused(self.settings, positions, frame_id)
+        if reason is None and not self.at_rest:
+            reason = f'{self._occupation}; wait for done or reset'
+        if reason is None:
+            self._lay_out(np.array(positions))
+        return reason
 
     def look_ahead(self) -> Block:
         """Return what the next ticks show unless something comes between; nothing changes."""
@@ -223,7 +217,9 @@ class Simulation:
         return frame, [self._done(shot)] if shot is not None and frame.finished else []
 
     def close(self) -> None:
-        """End the log."""
+        """End the log, and give up the shot that is being computed."""
+        if self._shot is not None:
+            self._shot.job.cancel()
         if self._log is not None:
             self._log.close(self.next_tick)
             self._log = None
@@ -244,6 +240,13 @@ class Simulation:
         if frame.started and self._shot is not None:
             shot = self._shot
             log.strike(frame.tick, shot.settings, shot.response.shot, shot.job.velocity)
+
+    def _find(self, request_id: str) -> tuple[str, Response] | None:
+        """Return the content and the latest response of a request that is known, or None."""
+        shot = self._shot
+        if shot is not None and shot.request_id == request_id:
+            return shot.content, shot.response
+        return self._history.find(request_id)
 
     def _consider(self, request: Request) -> tuple[Response, Job | None]:
         """Accept a readable request, or reject it."""
@@ -269,15 +272,20 @@ class Simulation:
     def _done(self, shot: _Shot) -> Response:
         trajectory = shot.trajectory
         assert trajectory is not None, 'a shot that is played was computed'
-        labels, start_time = self.settings.table.labels, self._playback.start_time
-        return self._end(shot, responses.done(shot.response, trajectory, labels, start_time))
+        table, start_time = self.settings.table, self._playback.start_time
+        response = responses.done(shot.response, trajectory, table.labels, start_time)
+        layout, reason = next_layout(table, self._playback.positions, shot.job.positions)
+        if reason is not None:
+            self._lay_out(layout)
+        return self._end(shot, replace(response, reason=reason))
 
     def _preempt(
         self, shot: _Shot, code: Code, reason: str, start_time: float | None = None
     ) -> Response:
+        shot.job.cancel()
         return self._end(shot, responses.preempted(shot.response, code, reason, start_time))
 
     def _end(self, shot: _Shot, response: Response) -> Response:
-        self._history.update(shot.request_id, response)
+        self._history.add(shot.request_id, shot.content, response)
         self._shot = None
         return response

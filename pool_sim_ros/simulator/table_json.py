@@ -6,6 +6,10 @@ import json
 from dataclasses import asdict
 
 from pool_sim_ros.physics import Ball, Table
+from pool_sim_ros.simulator.strict_json import read_json_object
+
+LONGEST = 10_000_000
+"""Characters that are read: enough for 40,000 balls."""
 
 
 def table_to_json(table: Table) -> str:
@@ -21,9 +25,11 @@ def table_from_json(text: str) -> Table:
     ValueError
         Where the text is not such JSON or its values make no table.
     """
+    if len(text) > LONGEST:
+        raise ValueError(f'a table has at most {LONGEST} characters, not {len(text)}')
     try:
-        fields = json.loads(text)
+        fields = read_json_object(text)
         balls = tuple(Ball(**ball) for ball in fields.pop('balls'))
         return Table(balls=balls, **fields)
-    except (AttributeError, KeyError, TypeError) as error:
-        raise ValueError(f'this is not a table: {error}') from error
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise ValueError(f'this is no table: {error}') from error

@@ -14,3 +14,7 @@ frames      ball poses, from the bytes of ROS to those of the page
 prediction  where the balls would go
 static/     the page itself
 """
+
+from pool_sim_ros.interrupts import quiet_interrupts
+
+quiet_interrupts()

@@ -13,6 +13,7 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter
 
 from pool_sim_ros.ros import SimulatorLink, interface, messages
+from pool_sim_ros.simulator import response_from_json
 from pool_sim_ros.web_view.poses import LatestPoses
 
 SET_PARAMETERS = interface.Service('set_parameters', SetParameters, 'set parameters of the node')
@@ -23,6 +24,9 @@ SERVICES = (interface.RESET, interface.STEP, interface.SET_PAUSED, SET_PARAMETER
 
 PATIENCE = 6.0
 """Seconds to wait for a service; a step may itself wait 5 s for a shot that is being computed."""
+
+RESEND = 1.0
+"""Time in s after which a request that is not answered is sent again, with the same id."""
 
 
 class NoAnswerError(Exception):
@@ -61,10 +65,12 @@ class Bridge:
         self._loop = asyncio.get_running_loop()
         self._link = SimulatorLink(context, simulator, 'web_view')
         self._requests = self._link.publisher(interface.SHOT_REQUEST)
+        self._asked: dict[str, asyncio.Future[None]] = {}
+        self._listener = listener
         self._poses = LatestPoses(context, simulator)
         for topic, callback in (
             (interface.COLLISIONS, listener.on_collisions),
-            (interface.SHOT_RESPONSE, listener.on_response),
+            (interface.SHOT_RESPONSE, self._on_response),
             (interface.STATE, listener.on_state),
             (interface.TABLE, listener.on_table),
         ):
@@ -95,13 +101,30 @@ class Bridge:
 
     def left_out(self, error: Exception) -> None:
         """Write to the log that something from the simulator made no sense."""
-        line = f'not understood, and left out: {error}'
-        self._link.logger.warn(line, throttle_duration_sec=1.0)
+        self._link.left_out(error)
 
-    def request(self, **fields: object) -> None:
-        """Send a request, as `~/shot/request` takes it, under a new id."""
-        request = {'id': uuid.uuid4().hex, **fields}
-        self._requests.publish(messages.to_json_string(request))
+    async def request(self, **fields: object) -> None:
+        """Send a request, as `~/shot/request` takes it, under a new id until it is answered.
+
+        The simulator plays it once, however often it is sent.
+
+        Raises
+        ------
+        NoAnswerError
+            If nobody answers.
+        """
+        request_id = uuid.uuid4().hex
+        request = messages.to_json_string({'id': request_id, **fields})
+        answered = self._asked[request_id] = self._loop.create_future()
+        try:
+            for _ in range(round(PATIENCE / RESEND)):
+                self._requests.publish(request)
+                await asyncio.wait([answered], timeout=RESEND)
+                if answered.done():
+                    return
+        finally:
+            del self._asked[request_id]
+        raise NoAnswerError(f'{self.simulator} does not answer')
 
     async def call(self, service: interface.Service, **fields: object) -> tuple[bool, str]:
         """Call a service; return whether it succeeded, and its words.
@@ -144,13 +167,19 @@ class Bridge:
             client.remove_pending_request(future)
             raise NoAnswerError(nobody) from None
 
+    def _on_response(self, message: Any) -> None:
+        answered = self._asked.get(response_from_json(message.data)['id'])
+        if answered is not None and not answered.done():
+            answered.set_result(None)
+        self._listener.on_response(message)
+
     def _hand_to(self, callback: Callable[[Any], None]) -> Callable[[Any], None]:
         return lambda message: self._in_loop(self._hand_over, callback, message)
 
     def _hand_over(self, callback: Callable[[Any], None], message: object) -> None:
         try:
             callback(message)
-        except (KeyError, TypeError, ValueError) as error:
+        except Exception as error:  # anybody may send anything on these topics
             self.left_out(error)
 
     def _in_loop(self, callback: Callable[..., object], *args: object) -> None:

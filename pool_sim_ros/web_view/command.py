@@ -6,23 +6,26 @@ import argparse
 import asyncio
 import signal
 import sys
+from typing import TYPE_CHECKING
 
-from rclpy.context import Context
+from pool_sim_ros.console import CommandError, Parser, port, require
+from pool_sim_ros.ros import NODE_NAME, node_name, ros_command
 
-from pool_sim_ros.console import CommandError
-from pool_sim_ros.ros import interface, ros_command
+if TYPE_CHECKING:
+    from rclpy.context import Context
 
 HOST, PORT = '127.0.0.1', 8080
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog='web_view',
         description='Serve a page that shows a running simulator and lets you play on it.',
         epilog='ROS arguments, like --ros-args -r __ns:=/NS, may follow.',
     )
     parser.add_argument(
         '--host',
+        type=_host,
         default=HOST,
         metavar='ADDRESS',
         help='address to listen at; 0.0.0.0 lets everybody on the network watch and play '
@@ -30,36 +33,31 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         '--port',
-        type=_port,
+        type=port,
         default=PORT,
         metavar='N',
         help='port to listen at; 0 takes any that is free (default: %(default)s)',
     )
     parser.add_argument(
         '--node',
-        default=interface.NODE_NAME,
+        type=node_name,
+        default=NODE_NAME,
         metavar='NAME',
         help='name of the simulator (default: %(default)s)',
     )
     return parser
 
 
-def _port(text: str) -> int:
-    if not (text.isascii() and text.isdigit() and int(text) < 65536):
-        raise argparse.ArgumentTypeError(f'{text!r} is not a port, 0 to 65535')
-    return int(text)
+def _host(text: str) -> str:
+    if not text:  # which would open the page to the network
+        raise argparse.ArgumentTypeError('the address is empty')
+    return text
 
 
 @ros_command('web_view', _parser, interrupt_status=0)
 def main(context: Context, options: argparse.Namespace) -> None:
     """Serve the page until SIGINT or SIGTERM."""
-    try:
-        import aiohttp  # noqa: F401
-    except ModuleNotFoundError:
-        raise CommandError(
-            "the page needs aiohttp: pip install 'pool_sim_ros[web]', "
-            'or apt install python3-aiohttp'
-        ) from None
+    require('aiohttp')
     asyncio.run(_serve(context, options))
 
 
@@ -76,9 +74,10 @@ async def _serve(context: Context, options: argparse.Namespace) -> None:
         try:
             try:
                 address = await server.start()
-            except OSError as error:
+            except (OSError, UnicodeError) as error:
+                reason = error.strerror if isinstance(error, OSError) else 'this is no address'
                 raise CommandError(
-                    f'cannot listen at {options.host}, port {options.port}: {error.strerror}; '
+                    f'cannot listen at {options.host}, port {options.port}: {reason}; '
                     'choose others with --host and --port'
                 ) from error
             print(f'{address} shows {view.simulator}; Ctrl-C ends this', flush=True)

@@ -1,10 +1,13 @@
-"""Ball poses on their way from the topic to the page: bytes to bytes, 60 times a second."""
+"""What the topics show on its way to the page: ball poses, bytes to bytes, 60 times a second."""
 
 from __future__ import annotations
 
 import struct
 
 import numpy as np
+
+from pool_sim_ros.physics import EventKind
+from pool_sim_ros.simulator import COLLISION_COLUMNS
 
 _HEAD = 4
 """Bytes before the message itself (CDR encapsulation); alignment counts from its end."""
@@ -29,7 +32,7 @@ def page_frame(message: bytes) -> bytes:
     Raises
     ------
     ValueError
-        If these are not the bytes of a PoseArray.
+        If these are not the bytes of a PoseArray, or a ball is nowhere.
     """
     try:
         order = '<' if message[1] & 1 else '>'
@@ -43,12 +46,35 @@ def page_frame(message: bytes) -> bytes:
     frame = np.empty(1 + 2 * count, dtype='<f8')
     frame[0] = seconds + nanoseconds * 1e-9
     frame[1:].reshape(count, 2)[:] = numbers.reshape(count, _POSE)[:, :2]
+    if not np.isfinite(frame).all():
+        raise ValueError('ball_poses: a position is not finite')
     return frame.tobytes()
 
 
 def frame_positions(frame: bytes) -> np.ndarray:
     """Return the (n, 2) positions in m of a frame that `page_frame` made."""
     return np.frombuffer(frame, '<f8', offset=8).reshape(-1, 2)
+
+
+def check_count(frame: bytes, balls: int) -> None:
+    """Raise ValueError where a frame that `page_frame` made has another number of balls."""
+    count = len(frame_positions(frame))
+    if count != balls:
+        raise ValueError(f'ball_poses: {count} balls, where the table has {balls}')
+
+
+def are_collisions(rows: np.ndarray, balls: int) -> bool:
+    """Return whether rows of numbers are collisions on a table with so many balls."""
+    if rows.shape[1] != len(COLLISION_COLUMNS) or not np.isfinite(rows).all():
+        return False
+    kinds, first, second = rows[:, 2], rows[:, 3], rows[:, 4]
+    ends = np.where(kinds == EventKind.BALL_BALL, balls, np.inf)  # or a cushion
+    return bool((_is_index(first, balls) & _is_index(second, ends)).all())
+
+
+def _is_index(numbers: np.ndarray, end: np.ndarray | int) -> np.ndarray:
+    good: np.ndarray = (numbers == np.floor(numbers)) & (numbers >= 0) & (numbers < end)
+    return good
 
 
 def _aligned(place: int, size: int) -> int:

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import asyncio
-import json
 from collections.abc import Coroutine
 from dataclasses import asdict
 from typing import Any
 
-import numpy as np
 from rclpy.context import Context
 
 from pool_sim_ros.me212 import published_final_positions
 from pool_sim_ros.physics import Table, compile_kernels
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.simulator import COLLISION_COLUMNS, Phase, table_from_json
+from pool_sim_ros.simulator import (
+    Phase,
+    response_from_json,
+    state_from_json,
+    table_from_json,
+)
 from pool_sim_ros.web_view.bridge import Bridge, NoAnswerError
 from pool_sim_ros.web_view.commands import Command, parse_command
-from pool_sim_ros.web_view.frames import frame_positions, page_frame
+from pool_sim_ros.web_view.frames import (
+    are_collisions,
+    check_count,
+    frame_positions,
+    page_frame,
+)
 from pool_sim_ros.web_view.pages import Page, Pages, message
 from pool_sim_ros.web_view.prediction import predict
 
@@ -29,6 +37,9 @@ meanwhile."""
 FRAME_PERIOD = 1 / 100
 """Seconds between two looks for a new frame; at real speed one comes every 1/60 s. If the simulator
 runs faster, the pages see the latest."""
+
+COMPILE_NOTICE = 1.0
+"""Seconds after which the kernels are being compiled, not merely loaded."""
 
 
 class View:
@@ -83,9 +94,9 @@ class View:
         if command.name == 'aim':
             page.tell(message('prediction', await self._predict(command.value)))
         elif command.name == 'strike':
-            self._bridge.request(velocity=command.value)
+            await self._bridge.request(velocity=command.value)
         elif command.name == 'shot':
-            self._bridge.request(shot=command.value)
+            await self._bridge.request(shot=command.value)
         else:
             succeeded, words = await self._call(command)
             if not succeeded:
@@ -116,25 +127,31 @@ class View:
     def on_collisions(self, collisions: Any) -> None:
         """Show the collisions; see `bridge.Listener`."""
         rows = messages.from_rows(collisions)
-        if rows.shape[1] != len(COLLISION_COLUMNS) or not np.isfinite(rows).all():
+        if self._table is None:
+            return  # it is latched, and comes in a moment
+        if not are_collisions(rows, len(self._table.balls)):
+            self._bridge.left_out(ValueError('these are no collisions on this table'))
             return
         self.pages.tell('collisions', rows.tolist())
 
     def on_response(self, response: Any) -> None:
         """Show the response to a request, beside what the report printed."""
-        content = json.loads(response.data)
+        content = response_from_json(response.data)
         done = content['phase'] == Phase.DONE
         printed = self._printed.get(content['shot']) if done and content['as_printed'] else None
+        if printed is not None and not printed.keys() >= content['final_positions_in'].keys():
+            raise ValueError('a response as printed has other balls than the print')
         self.pages.tell('response', {**content, 'printed': printed})
         if done:
             self.pages.tell('result', {**content, 'printed': printed}, keep=True)
 
     def on_state(self, state: Any) -> None:
         """Show what goes on."""
+        content = state_from_json(state.data)
         came = self._state is None
         if came and not self._bridge.is_matched():
             return  # the next one comes within a second
-        self._state = json.loads(state.data)
+        self._state = content
         self.pages.tell('state', self._state, keep=True)
         if came:
             self._tell_whether_there()
@@ -149,9 +166,17 @@ class View:
         self._run(self._compile(self._table))
 
     async def _compile(self, table: Table) -> None:
-        await asyncio.to_thread(compile_kernels, table)
+        notice = self._loop.call_later(COMPILE_NOTICE, self._tell_of_compiling, True)
+        try:
+            await asyncio.to_thread(compile_kernels, table)
+        finally:
+            notice.cancel()
+            self._tell_of_compiling(False)
         self._compiled = True
         self.pages.tell('predicts', True, keep=True)
+
+    def _tell_of_compiling(self, compiling: bool) -> None:
+        self.pages.tell('compiling', compiling, keep=True)
 
     def _look_for_frame(self) -> None:
         self._look = self._loop.call_later(FRAME_PERIOD, self._look_for_frame)
@@ -159,11 +184,14 @@ class View:
         if poses is None:
             return
         try:
-            self._frame = page_frame(poses)
+            frame = page_frame(poses)
+            if self._table is not None:
+                check_count(frame, len(self._table.balls))
         except ValueError as error:
             self._bridge.left_out(error)
         else:
-            self.pages.show(self._frame)
+            self._frame = frame
+            self.pages.show(frame)
 
     def _miss(self, looks: int) -> None:
         if looks < SILENCE:

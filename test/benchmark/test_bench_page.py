@@ -10,6 +10,7 @@ from benchmark.test_bench_node import processor_seconds
 browser_tests = pytest.importorskip(
     'web_view.test_browser', reason='Chromium or playwright is missing'
 )
+import chromium  # noqa: E402
 from site_harness import simulator, web_view  # noqa: E402
 
 SECTION = 'The page in the browser'
@@ -22,11 +23,8 @@ def test_rolling_balls(domain, results):
     with (
         simulator(**SMOOTH),
         web_view() as site,
-        browser_tests.sync_api.sync_playwright() as playwright,
+        chromium.open_browser() as browser,
     ):
-        browser = playwright.chromium.launch(
-            executable_path=browser_tests.CHROMIUM, args=browser_tests.SWITCHES
-        )
         page = browser_tests.Page(browser.new_page(viewport=browser_tests.DESKTOP))
         page.page.goto(site.address)
         page.wait_for_rest()
@@ -40,7 +38,6 @@ def test_rolling_balls(domain, results):
             shares.append((processor_seconds(site) - used) / took)
             rates.append((page.get('page.drawn') - drawn) / took)
             assert page.get('page.state.moving'), 'the shot is too short'
-        browser.close()
     load = f'(load {os.getloadavg()[0]:.1f})'
     rate = f'{np.median(rates):.1f} frames a second {load}'
     results.note(SECTION, 'drawn, of 60 a second', rate, '55')

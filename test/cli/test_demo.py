@@ -47,3 +47,11 @@ def test_help(domain):
     with Process('cli.demo', '--help') as process:
         assert process.wait() == 0
         assert '--speed' in process.stdout
+
+
+def test_a_speed_that_is_none_is_told_before_anything_starts(domain):
+    for word in ('-1', 'nan', '1e300'):
+        with Process('cli.demo', '--speed', word) as process:
+            assert process.wait() == 2
+            assert process.stdout == ''
+            assert f"argument --speed: '{word}' is " in process.stderr.splitlines()[-1]

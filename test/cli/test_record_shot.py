@@ -1,16 +1,19 @@
 """The command `record_shot`, read back with the file format's own library."""
 
 import json
+import os
+import subprocess
+import sys
 
 import pytest
 from process_harness import Process, node_process
 from rclpy.serialization import deserialize_message
 
 from pool_sim_ros.me212.log import published_final_positions
-from pool_sim_ros.ros import messages
+from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.recorder import TOPICS
 
-pytest.importorskip('rosbags', reason="rosbags is missing: pip install 'pool_sim_ros[record]'")
+AnyReader = pytest.importorskip('rosbags.highlevel', reason='pip install rosbags').AnyReader
 mcap = pytest.importorskip('mcap.reader', reason='pip install mcap')
 
 
@@ -24,7 +27,7 @@ def simulator(domain):
 def recording(simulator, tmp_path_factory):
     file = tmp_path_factory.mktemp('recording') / 'shot2.mcap'
     file.write_text('to be replaced')
-    args = ['2', '--node', 'filmed', '--out', str(file), '--timeout', '60']
+    args = ['2', '--node', 'filmed', '--out', str(file), '--timeout', '60', '--force']
     with Process('cli.record_shot', *args) as process:
         assert process.wait() == 0, process.stderr
         assert str(file) in process.stdout
@@ -113,3 +116,73 @@ def test_interrupted_it_leaves_nothing_behind(ros, tmp_path):
             assert process.wait() == 130
             assert process.stderr.count('\n') == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize('factor', [1.0, 0.0], ids=['real time', 'as fast as possible'])
+def test_it_is_stamped_with_sim_time_and_keeps_the_clock(domain, tmp_path, factor):
+    file = tmp_path / 'shot.mcap'
+    names = ['--ros-args', '-r', '__node:=timed']
+    args = ['2', '--node', 'timed', '--out', str(file), '--timeout', '60']
+    with node_process(*names, real_time_factor=factor, publish_clock='true'):
+        with Process('cli.record_shot', *args) as process:
+            assert process.wait() == 0, process.stderr
+    types = {topic.of('/timed'): topic.type for topic in (*TOPICS, interface.CLOCK)}
+    found = {}
+    with AnyReader([file]) as reader:
+        for connection, time, data in reader.messages():
+            message = deserialize_message(data, types[connection.topic])
+            found.setdefault(connection.topic, []).append((time, message))
+    poses = found['/timed/ball_poses']
+    assert all(time == messages.from_time(message.header.stamp) for time, message in poses)
+    assert found['/clock']
+    assert all(time == messages.from_time(message.clock) for time, message in found['/clock'])
+    answers = [(time, json.loads(m.data)) for time, m in found['/timed/shot/response']]
+    (accepted, _), (done, last) = answers
+    start, end = (round(last[name] * 1e9) for name in ('t_start', 't_end'))
+    every = [time for kept in found.values() for time, _ in kept]
+    # A shot of 1.52 s took 0.04 s of wall time.
+    assert min(every) <= start and max(every) >= end and end - start > 1_000_000_000
+    assert max(every) < end + 60_000_000_000
+    (request, _) = found['/timed/shot/request'][0]
+    assert request <= accepted <= start and done >= end
+    rows = [(time, row) for time, m in found['/timed/collisions'] for row in messages.from_rows(m)]
+    assert rows and all(row[1] * 1e9 <= time + 1 for time, row in rows)
+    assert all(time - row[1] * 1e9 < 2e9 / 60 for time, row in rows)
+
+
+def test_a_file_that_is_there_stays_unless_it_may_be_replaced(simulator, tmp_path):
+    file = tmp_path / 'shot.mcap'
+    file.write_text('precious')
+    # Before anything else: there is no such simulator.
+    with Process('cli.record_shot', '1', '--node', '/nobody', '--out', str(file)) as process:
+        assert process.wait() == 1
+        assert process.stderr == (
+            f'record_shot: --out: {file} is there already; choose another name, or replace it '
+            'with --force\n'
+        )
+    assert file.read_text() == 'precious'
+
+
+@pytest.mark.parametrize(
+    ('out', 'words'),
+    [
+        ('', 'argument --out: the name is empty'),
+        ('folder.mcap', 'is a folder'),
+        ('~/none/shot.mcap', 'there is no folder HOME/none'),
+    ],
+)
+def test_a_name_that_cannot_be_written_is_told_before_the_shot(domain, tmp_path, out, words):
+    (tmp_path / 'folder.mcap').mkdir()
+    environment = os.environ | {'HOME': str(tmp_path)}
+    command = [sys.executable, '-m', 'pool_sim_ros.cli.record_shot', '1', '--node', '/nobody']
+    done = subprocess.run(
+        [*command, '--out', out],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        cwd=tmp_path,
+        check=False,
+        env=environment | {'PYTHONPATH': os.pathsep.join(filter(None, sys.path))},
+    )
+    assert done.returncode in (1, 2)
+    assert words.replace('HOME', str(tmp_path)) in done.stderr.splitlines()[-1]

@@ -91,3 +91,17 @@ def test_replay_prints_digests_and_refuses_in_one_line(domain, tmp_path):
         assert process.stderr == f'replay: {log} cannot be read: No such file or directory\n'
     with Process('cli.replay', '--help') as process:
         assert process.wait() == 0 and '--speed' in process.stdout
+
+
+def test_a_speed_that_is_none_is_told_in_the_words_of_the_user(domain):
+    for word in ('-1', 'nan', 'inf', '1e-311', 'fast'):
+        with Process('cli.replay', 'session.log', '--speed', word) as process:
+            assert process.wait() == 2
+            assert f"argument --speed: '{word}' is " in process.stderr.splitlines()[-1]
+
+
+def test_a_tilde_is_the_home_of_the_user(domain, tmp_path, monkeypatch):
+    monkeypatch.setenv('HOME', str(tmp_path))
+    with Process('cli.replay', '~/none.log') as process:
+        assert process.wait() == 1
+        assert f'{tmp_path}/none.log' in process.stderr

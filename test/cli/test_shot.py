@@ -4,6 +4,7 @@ import os
 import pty
 import subprocess
 import sys
+import time
 
 import pytest
 from process_harness import Process, node_process
@@ -141,3 +142,49 @@ def test_the_client_needs_no_physics(domain):
     code = 'import sys, pool_sim_ros.cli.shot; sys.exit("numba" in sys.modules)'
     command = [sys.executable, '-c', code]
     assert subprocess.run(command, timeout=60, check=False).returncode == 0
+
+
+@pytest.mark.parametrize('args', [['5'], ['--velocity', '0', '0']])
+def test_what_no_node_plays_fails_at_once_without_one(domain, args):
+    started = time.monotonic()
+    with Process('cli.shot', *args, '--node', '/nobody', '--timeout', '600') as shot:
+        assert shot.wait() == 1
+        assert shot.stderr.startswith('shot: rejected (') and shot.stderr.count('\n') == 1
+    assert time.monotonic() - started < 60
+
+
+@pytest.mark.parametrize('words', [['-1e-1', '0'], ['-4.', '0'], ['0', '-5e-1']])
+def test_negative_numbers_of_every_notation_are_played(simulator, words):
+    with Process('cli.shot', '--velocity', *words, *PATIENT) as shot:
+        assert shot.wait() == 0, shot.stderr
+        x, y = map(float, words)
+        assert f'cue velocity [{x:.3f}, {y:.3f}] m/s' in shot.stdout
+
+
+def test_a_reader_that_goes_ends_it_without_a_traceback(simulator):
+    """As in `shot 1 | head -1`."""
+    command = [sys.executable, '-m', 'pool_sim_ros.cli.shot', '3', *PATIENT]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as shot:
+        assert shot.stdout.readline().startswith(b'accepted')
+        shot.stdout.close()
+        assert shot.stderr.read() == b''
+        assert shot.wait(60) == 141
+
+
+LABEL = '\N{CIRCLED DIGIT ONE}'
+
+
+def test_a_label_that_the_locale_cannot_print_is_printed_as_an_escape(domain, tmp_path):
+    file = tmp_path / 'table.yaml'
+    file.write_text(
+        '/**:\n  ros__parameters:\n    balls:\n'
+        f"      labels: ['C', '{LABEL}']\n      masses: [0.2, 0.2]\n      radii: [0.03, 0.03]\n"
+        '      positions: [0.5, 0.5, 1.0, 0.5]\n      colors: [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]\n'
+    )
+    names = ['--ros-args', '-r', '__node:=other', '--params-file', str(file)]
+    env = os.environ | {'PYTHONIOENCODING': 'ascii', 'LC_ALL': 'C'}
+    command = [sys.executable, '-m', 'pool_sim_ros.cli.shot', *STRIKE_OTHER, *PATIENT]
+    with node_process(*names, real_time_factor=20.0):
+        done = subprocess.run(command, capture_output=True, env=env, timeout=120, check=False)
+    assert (done.returncode, done.stderr) == (0, b'')
+    assert rb'\u2460' in done.stdout

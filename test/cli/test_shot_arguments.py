@@ -2,7 +2,8 @@
 
 import pytest
 
-from pool_sim_ros.cli.shot_arguments import ShotParser
+from pool_sim_ros.cli.shot_arguments import ShotParser, check_shot
+from pool_sim_ros.console import CommandError
 
 
 def parse(*words):
@@ -35,3 +36,52 @@ def test_anything_else_is_explained(capsys, words, explained):
         parse(*words)
     assert error.value.code == 2
     assert explained in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('words', [('-1e-1', '0'), ('-4.', '0'), ('0', '-.5'), ('-2E+0', '-1_0.5')])
+def test_every_negative_number_is_a_velocity(words):
+    assert parse('--velocity', *words).velocity == [float(word) for word in words]
+
+
+@pytest.mark.parametrize(
+    ('words', 'explained'),
+    [
+        (['--velocity', 'nan', '0'], "--velocity: 'nan' is not a finite number"),
+        (['--velocity', '0', 'inf'], "--velocity: 'inf' is not a finite number"),
+        (['--velocity', '-inf', '0'], "--velocity: '-inf' is not a finite number"),
+        (['--velocity', '1e999', '0'], "--velocity: '1e999' is not a finite number"),
+        (['--velocity', 'fast', '0'], "--velocity: 'fast' is not a number"),
+        (['1', '--timeout', '-1'], "--timeout: '-1' is not above 0"),
+        (['1', '--timeout', '0'], "--timeout: '0' is not above 0"),
+        (['1', '--timeout', 'nan'], "--timeout: 'nan' is not a finite number"),
+        (['1', '--timeout', 'inf'], "--timeout: 'inf' is not a finite number"),
+        (['1', '--node', ''], "--node: '' is not the name of a node"),
+        (['1', '--node', 'a b'], "--node: 'a b' is not the name of a node"),
+        (['1', '--node', '/'], "--node: '/' is not the name of a node"),
+    ],
+)
+def test_a_bad_value_is_explained_before_ros_is_asked(capsys, words, explained):
+    with pytest.raises(SystemExit) as error:
+        parse(*words)
+    assert error.value.code == 2
+    assert f'argument {explained}' in capsys.readouterr().err.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    ('words', 'told'),
+    [
+        (['5'], r'^rejected \(UNKNOWN_SHOT\): there is no shot "5"; the report has 1 to 4$'),
+        (['0'], 'UNKNOWN_SHOT'),
+        (['-1'], 'UNKNOWN_SHOT'),
+        (['99999999999999999999'], 'UNKNOWN_SHOT'),
+        (['--velocity', '0', '-0.'], 'BAD_VELOCITY'),
+    ],
+)
+def test_what_no_simulator_plays_is_told_without_one(words, told):
+    with pytest.raises(CommandError, match=told):
+        check_shot(parse(*words))
+
+
+@pytest.mark.parametrize('words', [['1'], ['4'], ['--velocity', '-1e-1', '0']])
+def test_what_some_simulator_plays_is_left_to_it(words):
+    check_shot(parse(*words))

@@ -110,3 +110,20 @@ def test_a_log_that_exists_is_refused_in_one_line(domain, tmp_path):
         assert 'record' in process.stderr and str(log) in process.stderr
         assert process.stderr.count('\n') == 1
     assert log.read_text() == 'precious'
+
+
+def test_a_tilde_is_the_home_of_the_user(ros, tmp_path, monkeypatch):
+    monkeypatch.setenv('HOME', str(tmp_path))
+    (tmp_path / 'table.yaml').write_text(GOOD)
+    with node_process('--ros-args', '--params-file', '~/table.yaml', '-p', 'record:=~/session.log'):
+        observer = Observer(ros).wait_for_match()
+        assert len(json.loads(observer.heard['table'][-1].data)['balls']) == 2
+        assert (tmp_path / 'session.log').is_file()
+
+
+def test_a_tilde_in_a_parameter_file_is_the_home_too(domain, tmp_path, monkeypatch):
+    monkeypatch.setenv('HOME', str(tmp_path))
+    file = tmp_path / 'record.yaml'
+    file.write_text('/**:\n  ros__parameters:\n    record: "~/session.log"\n')
+    with node_process('--ros-args', '--params-file', str(file)):
+        assert (tmp_path / 'session.log').is_file()

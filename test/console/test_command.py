@@ -84,3 +84,76 @@ def test_the_room_needs_neither_ros_nor_physics():
         'sys.exit(" ".join({"rclpy", "numpy", "numba"} & set(sys.modules)) or 0)'
     )
     assert subprocess.run([sys.executable, '-c', code], timeout=60, check=False).returncode == 0
+
+
+@pytest.mark.parametrize('name', ['rclpy', 'rclpy.node', 'std_msgs.msg', 'no_such_module'])
+def test_a_missing_package_is_one_line_and_status_1(capsys, name):
+    def run(args):
+        raise ModuleNotFoundError(f'No module named {name!r}', name=name)
+
+    assert command(run)([]) == 1
+    out, err = capsys.readouterr()
+    assert out == '' and err.startswith(f'play_it: needs {name.partition(".")[0]}, not installed')
+    assert err.count('\n') == 1
+
+
+@pytest.mark.parametrize('error', [ImportError, ModuleNotFoundError])
+@pytest.mark.parametrize('name', ['pool_sim_ros', 'pool_sim_ros.no_such_room'])
+def test_a_missing_module_of_our_own_is_not_hidden(error, name):
+    def run(args):
+        raise error('No module', name=name)
+
+    with pytest.raises(error):
+        command(run)([])
+
+
+@pytest.mark.parametrize(('name', 'words'), [('rclpy._rclpy', 'rclpy'), (None, 'a package')])
+def test_a_package_that_cannot_be_loaded_is_one_line_and_status_1(capsys, name, words):
+    def run(args):
+        raise ImportError('librcl.so: no such file\nsource ROS first', name=name)
+
+    assert command(run)([]) == 1
+    told = f'play_it: {words} cannot be loaded: librcl.so: no such file source ROS first\n'
+    assert capsys.readouterr() == ('', told)
+
+
+def test_an_interrupt_while_modules_are_loaded_is_told_like_any_other(tmp_path):
+    slow = tmp_path / 'slow_module.py'
+    slow.write_text(
+        'import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(60)\n'
+    )
+    code = (
+        'import signal, sys\n'
+        'signal.signal(signal.SIGINT, signal.default_int_handler)\n'
+        f'sys.path.insert(0, {str(tmp_path)!r})\n'
+        'from pool_sim_ros.console import console_command\n'
+        'def run(args): import slow_module\n'
+        'sys.exit(console_command("play_it", interrupted="play_it: given up")(run)([]))'
+    )
+    done = subprocess.run([sys.executable, '-c', code], capture_output=True, timeout=60, text=True)
+    assert (done.returncode, done.stderr) == (INTERRUPTED, 'play_it: given up\n')
+
+
+INTERRUPTED_HALFWAY = """
+import pool_sim_ros.console as console
+
+class Half:
+    def __init__(self):
+        raise KeyboardInterrupt
+    def __del__(self):
+        self.never_made.close()
+
+@console.console_command('play_it')
+def main(args):
+    Half()
+
+raise SystemExit(main([]))
+"""
+
+
+def test_what_was_interrupted_while_it_was_made_does_not_complain_when_it_goes():
+    """An executor of rclpy does; `KeyboardInterrupt` holds it until it is dealt with."""
+    ended = subprocess.run(
+        [sys.executable, '-c', INTERRUPTED_HALFWAY], capture_output=True, text=True, timeout=60
+    )
+    assert (ended.returncode, ended.stdout, ended.stderr) == (INTERRUPTED, '', '')

@@ -49,3 +49,10 @@ def test_after_it_was_removed_the_next_version_comes_at_once():
     line.clear()
     line.show('b')
     assert stream.getvalue() == f'{ERASE}a{ERASE}{ERASE}b'
+
+
+def test_an_output_that_is_closed_is_left_alone():
+    line = ProgressLine(None)
+    line.show('1 ball moves')
+    line.clear()
+    assert not line.wanted

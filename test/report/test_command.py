@@ -134,6 +134,41 @@ def test_another_table_without_films(tmp_path):
     assert not (tmp_path / 'out' / 'videos').exists()
 
 
+def test_a_table_with_any_labels_is_drawn(tmp_path):
+    pytest.importorskip('latex2mathml', reason='pip install latex2mathml')
+    labels = [
+        r'C',
+        r'\ud800',
+        r'\0\x1b[8m',
+        r'a\nb',
+        r'\u202e',
+        r'\U0001F600',
+        r'$\\frac',
+        r'</svg>',
+    ]
+    count, quoted = len(labels), ', '.join(f'"{label}"' for label in labels)
+    table = tmp_path / 'weird.yaml'
+    table.write_text(
+        '/**:\n  ros__parameters:\n    report_integrator: event\n    balls:\n'
+        f'      labels: [{quoted}]\n'
+        f'      masses: {[0.2] * count}\n      radii: {[0.03] * count}\n'
+        f'      positions: {[0.12 * (1 + i // 2) for i in range(2 * count)]}\n'
+        f'      colors: {[0.5] * 3 * count}\n'
+    )
+    status, out, err = run(
+        *('--table', table, '--out', tmp_path / 'out', '--no-videos', '--shots', 4), cwd=tmp_path
+    )
+    assert (status, err) == (0, ''), err
+    assert 'report.html' in out
+
+
+def test_a_tilde_is_the_home_of_the_user(tmp_path, monkeypatch):
+    monkeypatch.setenv('HOME', str(tmp_path))
+    status, _, err = run('--log-only', '--shots', 3, '--out', '~/made', cwd=tmp_path)
+    assert (status, err) == (0, '')
+    assert all_files(tmp_path) == ['made/output.log']
+
+
 def test_the_integrator_can_be_chosen(tmp_path):
     status, out, err = run('--log-only', '--integrator', 'event', '--out', tmp_path)
     assert (status, err) == (0, '')
@@ -151,6 +186,8 @@ def test_the_integrator_can_be_chosen(tmp_path):
         (['--out', '/dev/null'], 1, '/dev/null is not a folder'),
         (['--table', 'none.yaml'], 1, 'cannot read none.yaml: No such file or directory'),
         (['--shots', '5'], 2, 'invalid choice: 5'),
+        (['--out', ''], 2, 'argument --out: the name is empty'),
+        (['--table', ''], 2, 'argument --table: the name is empty'),
         (['--shots'], 2, 'expected at least one argument'),
         (['--integrator', 'euler'], 2, "invalid choice: 'euler'"),
         (['extra'], 2, 'unrecognized arguments: extra'),
@@ -217,7 +254,7 @@ def test_a_missing_package_is_told_before_the_work_begins(tmp_path, monkeypatch,
     assert command.main(['--out', str(tmp_path)]) == 1
     assert capsys.readouterr().err == (
         'report: needs matplotlib, imageio-ffmpeg, not installed here: '
-        "pip install 'pool_sim_ros[report]'\n"
+        'pip install matplotlib imageio-ffmpeg\n'
     )
     assert all_files(tmp_path) == []
     assert command.main(['--out', str(tmp_path), '--log-only', '--shots', '3']) == 0

@@ -40,6 +40,26 @@ def test_a_label_fits_its_circle(label):
     assert (box.x0 + box.x1, box.y0 + box.y1) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
+@pytest.mark.filterwarnings('error')
+@pytest.mark.parametrize(
+    'label', ['\0\x01\x1b', '\n', '\u202e', '\ud800', '\u200b', '\u2800', '\u3164', '', ' ']
+)
+def test_a_label_that_cannot_be_drawn_is_left_out_or_a_box(label):
+    outline = label_outline(label, 2.0)
+    assert len(outline.vertices) == 0 or math.hypot(*outline.get_extents().max) <= 1.0 + 1e-9
+
+
+@pytest.mark.filterwarnings('error')
+@pytest.mark.parametrize(('label', 'same'), [('a\nb', 'ab'), ('\x1b[8m', '[8m')])
+def test_what_cannot_be_printed_is_left_out_of_a_label(label, same):
+    assert np.array_equal(label_outline(label, 2.0).vertices, label_outline(same, 2.0).vertices)
+
+
+@pytest.mark.filterwarnings('error')
+def test_a_character_that_the_font_has_not_is_no_trouble():
+    assert len(label_outline('\N{GRINNING FACE}', 2.0).vertices)
+
+
 def test_a_blank_label_is_no_trouble(settings, tmp_path):
     balls = [replace(settings.table.balls[0], label=' ')]
     pixels(TablePicture(replace(settings.table, balls=balls)), tmp_path, 50)

@@ -51,3 +51,8 @@ def test_a_folder_in_the_place_of_a_file_is_told(tmp_path):
     with pytest.raises(OutputError, match='Is a directory'):
         write_text(tmp_path / 'output.log', 'text')
     assert [path.name for path in tmp_path.iterdir()] == ['output.log']
+
+
+def test_a_text_with_half_a_surrogate_pair_is_written_with_an_escape(tmp_path):
+    write_text(tmp_path / 'log', 'ball \N{GRINNING FACE} \ud800\n')
+    assert (tmp_path / 'log').read_text('utf-8') == 'ball \N{GRINNING FACE} \\ud800\n'

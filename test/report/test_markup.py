@@ -1,10 +1,21 @@
 import base64
 
 import pytest
-from page_reader import Page
+from page_reader import Page, skeleton
 
 from pool_sim_ros.physics import Ball
-from pool_sim_ros.report.markup import Cell, ball_name, figure, fill, number, pair, short, table
+from pool_sim_ros.report.markup import (
+    Cell,
+    Html,
+    ball_name,
+    figure,
+    fill,
+    join,
+    number,
+    pair,
+    short,
+    table,
+)
 
 
 @pytest.mark.parametrize(
@@ -70,3 +81,21 @@ def test_a_template_is_filled_only_when_nothing_is_left_out():
     assert 'another table' in fill('no_comparison.html')
     with pytest.raises(KeyError):
         fill('shot.html', number=1)
+
+
+def test_parts_of_a_template_are_text_unless_they_are_html():
+    html = fill(
+        'rounding_branch.html', section='4.4', nearest='<1 & \\(2\\)>', branches=Html('<hr>')
+    )
+    assert '&lt;1 &amp; &#92;(2&#92;)&gt;' in html and '<hr>' in html
+    assert isinstance(html, Html)
+
+
+def test_parts_that_are_joined_are_text_unless_they_are_html():
+    assert join(['a < b', Html('<br>'), 3], ' ') == 'a &lt; b <br> 3'
+
+
+def test_captions_and_descriptions_are_text():
+    html = figure({'a"b.png': b''}, 'a"b.png', '<i>', '"><script>')
+    assert skeleton(html) == skeleton(figure({'a.png': b''}, 'a.png', 'i', 'script'))
+    assert skeleton(table(['a'], [], '<b>"')) == skeleton(table(['a'], [], 'b'))

@@ -1,3 +1,5 @@
+import latex2mathml  # noqa: F401 - the test is skipped without it
+
 from pool_sim_ros.report.mathml import with_formulae
 
 

@@ -1,7 +1,8 @@
+import re
 from dataclasses import replace
 
 import pytest
-from page_reader import numbers, page_of
+from page_reader import Page, html_of, numbers, page_of, skeleton
 
 from pool_sim_ros.me212.log import published_final_positions
 from pool_sim_ros.physics import two_ball_collision
@@ -112,3 +113,64 @@ def test_the_example_of_part_1_is_computed(page):
         assert [numbers(cell)[0] for cell in cells[:-1]] == pytest.approx(
             [part[index] for part in parts], abs=5.1e-5
         )
+
+
+EVIL = (
+    '<img src=x onerror="document.title=1">',
+    '\'"><script>document.title = 1</script>',
+    r'\(x^2\) \[y\]',
+    '$verdict ${x} $$',
+    '&lt;b&gt;',
+    '</title></style><h2 id="x">y</h2>',
+)
+"""Labels that would be something else than text if they were not escaped."""
+
+
+@pytest.fixture(scope='module')
+def htmls(settings, comparisons):
+    """The whole page of the report's table with plain labels, then with evil ones; and those."""
+    plain = [f'ball {index:02}' for index in range(11)]
+    evil = [f'{EVIL[index % len(EVIL)]}{index:02}' for index in range(11)]
+    return [(_labelled(settings, comparisons, labels), labels) for labels in (plain, evil)]
+
+
+def _labelled(settings, comparisons, labels):
+    balls = zip(settings.table.balls, labels, strict=True)
+    renamed = [replace(ball, label=label) for ball, label in balls]
+    other = replace(settings, table=replace(settings.table, balls=renamed))
+    shots = []
+    for shot in play_shots(other, (1, 4)):
+        printed = published_final_positions()[shot.number].values()
+        shots.append(replace(shot, printed=dict(zip(labels, printed, strict=True))))
+    return html_of(other, shots, [comparisons[0], comparisons[3]])
+
+
+def test_labels_change_nothing_but_the_text(htmls):
+    (plain, _), (evil, _) = htmls
+    assert skeleton(evil) == skeleton(plain)
+    assert '<math' in plain
+
+
+def test_every_label_can_be_read_wherever_it_stands(htmls):
+    texts = []
+    for html, labels in htmls:
+        text = Page(html).text
+        for index, label in enumerate(labels):
+            text = text.replace(label, f'LABEL{index}.')
+        texts.append(text)
+    plain, evil = texts
+    assert plain == evil
+    # The nearest ball is named in the words on shot 4 and on its rounding error.
+    assert re.search(r'toward ball LABEL\d+', plain)
+    assert re.search(r'centre of ball LABEL\d+', plain)
+    assert re.search(r'ball LABEL\d+\.\s+ends', plain)
+
+
+def test_the_page_forbids_every_script(htmls):
+    _, (html, _) = htmls
+    policy = html.index('<meta http-equiv="Content-Security-Policy" content="')
+    assert policy < html.index('<style') and policy < html.index('<title')
+    content = html[policy:].partition('content="')[2].partition('"')[0]
+    rules = dict(rule.strip().split(' ', 1) for rule in content.split(';'))
+    assert rules['default-src'] == "'none'" and 'script-src' not in rules
+    assert "'none'" == rules['base-uri'] == rules['form-action']

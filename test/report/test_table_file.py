@@ -1,3 +1,4 @@
+import os
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,14 @@ def write(tmp_path, text):
     path = tmp_path / 'table.yaml'
     path.write_text(text)
     return path
+
+
+@pytest.mark.parametrize(('before', 'end'), [('\ufeff', '\n'), ('', '\r\n')])
+def test_marks_and_line_ends_of_other_systems_do_no_harm(settings, tmp_path, before, end):
+    text = (CONFIG / 'report.yaml').read_text()
+    path = tmp_path / 'table.yaml'
+    path.write_bytes((before + text.replace('\n', end)).encode())
+    assert read_settings(path) == settings
 
 
 def test_the_report_s_own_file_is_the_report_s_run(settings):
@@ -43,7 +52,18 @@ def test_numbers_may_be_written_as_ros_reads_them(tmp_path, number):
         ('', 'under /\\*\\*: and ros__parameters:'),
         ('\x00', 'special characters'),
         ('!!python/object:os.system {}\n', 'could not determine a constructor'),
+        (HEAD + '    table: &t {length: 1.0}\n    balls: *t\n', 'aliases are not allowed, line 4'),
+        (HEAD + '    table: &t {length: *t}\n', 'aliases are not allowed, line 3'),
+        (HEAD + '    time_slice: ' + '9' * 400, 'time_slice must be a number from 1e-07 to 0.01'),
+        (HEAD + '    time_slice: ' + '9' * 5000, 'cannot read'),
+        (
+            HEAD + '    time_slice: true\n',
+            'time_slice must be a number from 1e-07 to 0.01, not True',
+        ),
+        (HEAD + '    table: {length: ' + '[' * 5000, 'nested too deeply|nesting depth'),
+        (HEAD + '    step_ticks: 1\n    step_ticks: 2\n', "'step_ticks' is given twice"),
     ],
+    ids=lambda value: repr(value)[-20:],
 )
 def test_a_bad_file_is_refused_in_one_line_that_names_it(tmp_path, text, words):
     path = write(tmp_path, text)
@@ -60,11 +80,27 @@ def test_overlapping_balls_are_named(tmp_path):
         read_settings(write(tmp_path, text))
 
 
+def test_a_misspelt_name_is_told_and_one_of_another_node_is_not(settings, tmp_path, capsys):
+    text = HEAD + '    real_time_facter: 2.0\n    table: {frame: map}\n'
+    assert read_settings(write(tmp_path, text)) == settings
+    told = capsys.readouterr().err
+    assert 'real_time_facter is not a parameter; did you mean real_time_factor?' in told
+    assert told.count('\n') == 1
+
+
 def test_files_that_cannot_be_read_are_told(tmp_path):
     with pytest.raises(TableFileError, match='No such file'):
         read_settings(tmp_path / 'none.yaml')
     with pytest.raises(TableFileError, match='directory'):
         read_settings(tmp_path)
+    os.mkfifo(tmp_path / 'pipe')
+    with pytest.raises(TableFileError, match='not a regular file'):
+        read_settings(tmp_path / 'pipe')
+    large = tmp_path / 'large.yaml'
+    with large.open('wb') as file:
+        file.truncate(10**9)
+    with pytest.raises(TableFileError, match='1000000000 bytes'):
+        read_settings(large)
     latin = tmp_path / 'latin.yaml'
     latin.write_bytes(b'\xff\xfe\xfa')
     with pytest.raises(TableFileError, match='UTF-8'):

@@ -2,16 +2,18 @@
 
 import json
 import time
-from itertools import count, islice
+from concurrent.futures import ThreadPoolExecutor
+from itertools import count, cycle, islice
 
 import numpy as np
 import pytest
-from ros_harness import spinning
+from ros_harness import Observer, spinning
+from waiting import wait_until
 
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import ShotClient, SimulatorError, interface, messages
 from pool_sim_ros.ros.client import IDLE_STATES
-from pool_sim_ros.simulator import table_from_json
+from pool_sim_ros.simulator import Phase, Response, read_log, table_from_json
 
 PATIENCE = 60.0
 FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
@@ -109,8 +111,9 @@ class Stub:
         return self.node.create_publisher(topic.type, topic.of('stub'), topic.qos)
 
     def _accept(self, request):
-        response = {'id': json.loads(request.data)['id'], 'phase': 'accepted', 'code': 'OK'}
-        self._responses.publish(messages.to_json_string(response))
+        asked = json.loads(request.data)['id']
+        response = Response(asked, Phase.ACCEPTED, velocity=(-4.0, 0.0), integrator='event')
+        self._responses.publish(messages.to_string(response.to_json()))
         self._timer = self.node.create_timer(0.02, self._send_state)
 
     def _send_state(self):
@@ -140,3 +143,110 @@ def test_states_of_the_same_tick_do_not_make_a_shot_forgotten(ros, make_client):
     with spinning(Stub(ros, [5] * (2 * IDLE_STATES)).node):
         with pytest.raises(SimulatorError, match=r'^/stub fell silent'):
             play_on_stub(make_client('stub'))
+
+
+class Bystander:
+    """Somebody else who subscribes to the requests of a simulator, as a recorder does."""
+
+    def __init__(self, ros, simulator=interface.NODE_NAME):
+        self.node = ros.node('bystander')
+        self.heard = []
+        topic = interface.SHOT_REQUEST
+        self.node.create_subscription(
+            topic.type, topic.of(simulator), lambda request: self.heard.append(request.data), 1000
+        )
+
+
+def test_a_request_that_only_a_bystander_heard_is_sent_again_and_played_once(
+    ros, make_client, tmp_path
+):
+    log = tmp_path / 'session.log'
+    bystander = Bystander(ros)
+    client = make_client()
+    with spinning(bystander.node), ThreadPoolExecutor() as pool:
+        playing = pool.submit(client.play, velocity=(-3.0, 0.4), timeout=PATIENCE)
+        wait_until(lambda: bystander.heard, 'the request that is lost')
+        node = ros.sim_node(**FAST, record=str(log))
+        with spinning(node):
+            done = playing.result(PATIENCE)
+        node.runner.stop(PATIENCE)
+    assert np.array_equal(
+        list(done['final_positions'].values()),
+        simulate(report_table(), (-3.0, 0.4)).final_positions,
+    )
+    assert len(bystander.heard) > 1 and len(set(bystander.heard)) == 1
+    assert [command['command'] for command in read_log(log)[1]] == ['strike', 'end']
+
+
+def test_a_request_that_comes_many_times_is_played_once(ros, tmp_path):
+    log = tmp_path / 'session.log'
+    node = ros.sim_node(**FAST, record=str(log))
+    observer = Observer(ros).wait_for_match()
+    request = '{"id": "again", "velocity": [-3.0, 0.4]}'
+    for _ in range(5):
+        observer.request(request)
+    observer.wait_for_phase('again', 'done')
+    for _ in range(5):
+        observer.request(request)
+    ros.spin_until(lambda: observer.phases('again').count('done') == 6, 'the same answers')
+    assert set(observer.phases('again')) == {'accepted', 'done'}
+    node.runner.stop(PATIENCE)
+    assert [command['command'] for command in read_log(log)[1]] == ['strike', 'end']
+
+
+def test_bystanders_alone_are_no_simulator(ros, make_client):
+    bystander = Bystander(ros)
+    client = make_client()
+    with spinning(bystander.node):
+        wait_until(client._requests.get_subscription_count, 'the bystander')
+        with pytest.raises(SimulatorError, match='no simulator answers'):
+            client.wait_for_simulator(0.5)
+        with pytest.raises(SimulatorError, match=r'did not answer the request within 2\.5 s'):
+            client.play(1, timeout=2.5)
+    assert len(bystander.heard) >= 2
+
+
+class Fool:
+    """Sends foreign texts on the topics that a client reads, again and again."""
+
+    TEXTS = (
+        '', '5', 'null', '[]', '{}', '[' * 100_000, '{"id": NaN}', '9' * 5000, '"x"',
+        'x' * 2_000_000,
+        '{"phase": "done"}', '{"phase": "accepted", "id": 5, "code": "OK"}',
+        '{"paused": 1, "moving": 2}', '{"tick": 1e999, "paused": false}',
+    )  # fmt: skip
+
+    def __init__(self, ros, simulator=interface.NODE_NAME):
+        self.node = ros.node('fool')
+        topics = (interface.STATE, interface.SHOT_RESPONSE, interface.TABLE)
+        self._publishers = [
+            self.node.create_publisher(topic.type, topic.of(simulator), topic.qos)
+            for topic in topics
+        ]
+        rows = interface.BALL_VELOCITIES
+        self._rows = self.node.create_publisher(rows.type, rows.of(simulator), rows.qos)
+        self._texts = cycle(self.TEXTS)
+        self.node.create_timer(0.02, self.send)
+
+    def send(self):
+        text = next(self._texts)
+        for publisher in self._publishers:
+            publisher.publish(messages.to_string(text))
+        self._rows.publish(interface.BALL_VELOCITIES.type(data=[1.0]))
+
+
+def test_foreign_messages_are_left_out_with_a_line_now_and_then(ros, make_client, capfd):
+    fool = Fool(ros)
+    with spinning(ros.sim_node(report_integrator='event', real_time_factor=1.0)):
+        client = make_client()
+        client.wait_for_simulator(PATIENCE)
+        wait_until(lambda: all(p.get_subscription_count() for p in fool._publishers[:2]), 'a match')
+        start = time.monotonic()
+        with spinning(fool.node):
+            done = client.play(1, timeout=PATIENCE, on_progress=lambda words: None)
+            assert table_from_json(client.table_json(PATIENCE)) == report_table()
+        took = time.monotonic() - start
+    assert done['shot'] == 1
+    lines = [line for line in capfd.readouterr().err.splitlines() if 'left out' in line]
+    assert 1 <= len(lines) <= took + 2
+    assert all(len(line) < 500 for line in lines)

@@ -39,8 +39,10 @@ class Placer:
             lambda: self._publisher.get_subscription_count() and self.statuses, 'the match'
         )
 
-    def place(self, positions):
-        self._publisher.publish(poses(positions))
+    def place(self, positions, frame_id=''):
+        message = poses(positions)
+        message.header.frame_id = frame_id
+        self._publisher.publish(message)
 
     @property
     def values(self):
@@ -98,6 +100,21 @@ def test_what_is_no_layout_is_rejected_naming_the_ball(ros, places, words):
     for word in ['set_ball_poses', *words]:
         assert word in values['last rejection']
     assert np.array_equal(last_positions(observer), START)
+
+
+def test_a_layout_in_another_frame_is_rejected_with_a_line_and_one_in_ours_is_not(ros, capfd):
+    ros.sim_node(**FAST, frame_id='cloth')
+    observer = Observer(ros).wait_for_match()
+    placer = Placer(ros, observer)
+    there = START * [1.0, 0.98]
+    placer.place(there, 'table')
+    values = placer.wait_for(lambda v: v['rejected commands'] == '1', 'the rejection')
+    assert "the frame is 'table'; it must be 'cloth', or empty" in values['last rejection']
+    lines = [line for line in capfd.readouterr().err.splitlines() if 'set_ball_poses' in line]
+    assert len(lines) == 1 and "'cloth'" in lines[0]
+    assert np.array_equal(last_positions(observer), START)
+    placer.place(there, 'cloth')
+    ros.spin_until(lambda: np.array_equal(last_positions(observer), there), 'the balls there')
 
 
 def test_balls_are_not_placed_while_they_move(ros):

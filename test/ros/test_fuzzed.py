@@ -2,25 +2,16 @@
 
 import json
 import struct
-import subprocess
-import sys
 import uuid
 from functools import cache
-from pathlib import Path
 
 import pytest
+from fuzzing import garbage_sender
 from geometry_msgs.msg import Point, Pose, PoseArray, Quaternion, Twist, Vector3
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from process_harness import node_process
-from rcl_interfaces.srv import (
-    DescribeParameters,
-    GetParameters,
-    GetParameterTypes,
-    ListParameters,
-    SetParameters,
-    SetParametersAtomically,
-)
+from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
 from ros_harness import Observer, Ros
@@ -29,8 +20,6 @@ from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
 
 from pool_sim_ros.ros import interface
 from pool_sim_ros.simulator import PARAMETERS
-
-GARBAGE = Path(__file__).parents[1] / 'support' / 'garbage_requests.py'
 
 
 @pytest.fixture(scope='module')
@@ -92,32 +81,10 @@ def test_no_message_at_all_ends_nothing(victim, name, data):
     is_served(observer)
 
 
-SERVICES = {
-    **{s.name: s.type for s in (interface.RESET, interface.SET_PAUSED, interface.STEP)},
-    'describe_parameters': DescribeParameters,
-    'get_parameter_types': GetParameterTypes,
-    'get_parameters': GetParameters,
-    'list_parameters': ListParameters,
-    'set_parameters': SetParameters,
-    'set_parameters_atomically': SetParametersAtomically,
-}
-
-
 @pytest.mark.parametrize('seed', range(3))
 def test_garbage_in_place_of_requests_to_services_ends_nothing(victim, seed):
     observer, _ = victim
-    names = []
-    for name, kind in SERVICES.items():
-        package = kind.__module__.split('.')[0]
-        names += [f'pool_sim/{name}', f'{package}::srv::dds_::{kind.__name__}_Request_']
-    sender = subprocess.Popen(
-        [
-            sys.executable,
-            GARBAGE,
-            str(seed),
-            *names,
-        ]
-    )
+    sender = garbage_sender(seed)
     while sender.poll() is None:
         is_served(observer)
     assert sender.wait() == 0

@@ -1,5 +1,7 @@
 """The markers, and when they are sent."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from visualization_msgs.msg import Marker
@@ -15,9 +17,32 @@ NOTHING = np.empty((0, len(COLLISION_COLUMNS)))
 
 def by_name(array):
     """Return the markers by namespace and id; none may be there twice."""
-    found = {(marker.ns, marker.id): marker for marker in array.markers}
-    assert len(found) == len(array.markers)
+    shown = [marker for marker in array.markers if marker.action != Marker.DELETEALL]
+    found = {(marker.ns, marker.id): marker for marker in shown}
+    assert len(found) == len(shown)
     return found
+
+
+class Viewer:
+    """Shows what RViz shows after some messages, in their order."""
+
+    def __init__(self):
+        self.shown = {}
+
+    def take(self, array):
+        by_name(array)
+        for marker in array.markers:
+            if marker.action == Marker.DELETEALL:
+                self.shown.clear()
+            elif marker.action == Marker.DELETE:
+                self.shown.pop((marker.ns, marker.id), None)
+            else:
+                assert marker.type != Marker.LINE_LIST or marker.points, 'viewers complain'
+                self.shown[marker.ns, marker.id] = marker
+        return self
+
+    def count(self, namespace):
+        return sum(ns == namespace for ns, _ in self.shown)
 
 
 def place(marker):
@@ -124,3 +149,65 @@ def test_the_next_shot_begins_without_the_trails_of_the_last():
     assert markers.changes(rolled, NOTHING, started=False, rolling=True).markers[-1].points
     again = markers.changes(TABLE.positions, NOTHING, started=True, rolling=True)
     assert again.markers[-1].points == []
+
+
+def test_all_there_is_stands_in_one_message():
+    viewer = Viewer().take(Markers(TABLE, 'table').everything(TABLE.positions))
+    count = len(TABLE.balls)
+    assert {ns: viewer.count(ns) for ns in ('table', 'cushions', 'balls', 'labels')} == {
+        'table': 1,
+        'cushions': 4,
+        'balls': count,
+        'labels': count,
+    }
+    assert len(viewer.shown) == 1 + 4 + 2 * count
+
+
+def test_a_table_with_fewer_balls_leaves_none_of_those_before():
+    few = dataclasses.replace(TABLE, balls=TABLE.balls[:3])
+    viewer = Viewer().take(Markers(TABLE, 'table').everything(TABLE.positions))
+    viewer.take(Markers(few, 'table').everything(few.positions))
+    assert (viewer.count('balls'), viewer.count('labels')) == (3, 3)
+    # First of all: what stands before it would never be seen.
+    array = Markers(few, 'table').everything(few.positions)
+    assert [m.action == Marker.DELETEALL for m in array.markers] == [True] + [False] * (
+        len(array.markers) - 1
+    )
+    assert array.markers[0].ns == ''
+
+
+def contacts(count):
+    """Return rows of collisions of the first two balls, all at different places."""
+    rows = np.zeros((count, len(COLLISION_COLUMNS)))
+    rows[:, COLLISION_COLUMNS.index('b')] = 1
+    rows[:, COLLISION_COLUMNS.index('x')] = np.linspace(0.5, 1.0, count)
+    rows[:, COLLISION_COLUMNS.index('nx')] = 1.0
+    return rows
+
+
+@pytest.mark.parametrize('count', [1, 32, 33, 64, 500])
+def test_a_message_has_at_most_32_flashes_each_under_an_id_of_its_own(count):
+    markers = Markers(TABLE, 'table')
+    markers.everything(TABLE.positions)
+    for _ in range(3):
+        found = by_name(
+            markers.changes(TABLE.positions, contacts(count), started=False, rolling=True)
+        )
+        flashes = [marker for (ns, _), marker in found.items() if ns == 'flashes']
+        assert len(flashes) == min(count, 32)
+        # Those of the latest contacts: a viewer would show the others for no time at all.
+        latest = contacts(count)[-32:, COLLISION_COLUMNS.index('x')]
+        assert [place(marker)[0] for marker in flashes] == latest.tolist()
+        all_there_is = by_name(markers.everything(TABLE.positions))
+        assert sum(ns == 'flashes' for ns, _ in all_there_is) == len(flashes)
+
+
+def test_no_viewer_is_sent_lines_without_points():
+    markers, viewer = Markers(TABLE, 'table'), Viewer()
+    viewer.take(markers.everything(TABLE.positions))
+    rolled = TABLE.positions + [0.1, 0.0]
+    for positions, started in ((TABLE.positions, True), (rolled, False), (TABLE.positions, True)):
+        viewer.take(markers.changes(positions, NOTHING, started=started, rolling=True))
+        assert viewer.count('trails') == (not started)
+        viewer.take(markers.everything(positions))
+        assert viewer.count('trails') == (not started)

@@ -6,7 +6,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from pool_sim_ros.ros import interface, messages, write_bag
 from pool_sim_ros.ros.recorder import Recorded
 
-pytest.importorskip('rosbags', reason="rosbags is missing: pip install 'pool_sim_ros[record]'")
+pytest.importorskip('rosbags', reason='pip install rosbags')
 mcap = pytest.importorskip('mcap.reader', reason='pip install mcap')
 
 

@@ -7,6 +7,7 @@ import json
 import os
 import random
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -15,11 +16,20 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from geometry_msgs.msg import Twist, Vector3
+from geometry_msgs.msg import Pose, PoseArray, Quaternion, Twist, Vector3
 from process_harness import Process, node_process
+from rclpy.serialization import deserialize_message, serialize_message
 from ros_harness import Observer, Ros
 from std_msgs.msg import String
-from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
+from survival import (
+    DECISIONS,
+    FAST,
+    Attacker,
+    Listener,
+    is_served,
+    plays_as_printed,
+    resident,
+)
 
 from pool_sim_ros.ros import interface
 
@@ -158,6 +168,63 @@ def test_stopped_and_continued(ros):
     stop_and_continue(ros, 1.0)
 
 
+def peak(process):
+    """Return the most memory that a process has had, in bytes."""
+    status = Path(f'/proc/{process._popen.pid}/status').read_text()
+    return 1024 * int(status.partition('VmHWM:')[2].split()[0])
+
+
+def layout_of(poses):
+    """Return the bytes of a layout of so many poses, without making them."""
+    one = serialize_message(PoseArray(poses=[Pose()]))
+    assert one[-64:-60] == struct.pack('<I', 1)  # how many; then a gap before the first
+    return one[:-64] + struct.pack('<II', poses, 0) + bytes(56 * poses)
+
+
+def test_a_layout_of_a_million_poses_is_refused_undecoded_in_a_line(ros):
+    assert (
+        deserialize_message(layout_of(3), PoseArray).poses
+        == [Pose(orientation=Quaternion(w=0.0))] * 3
+    )
+    with node_process(**FAST) as process:
+        observer, attacker = Listener(ros).wait_for_match(), Attacker(ros)
+        before, data = peak(process), layout_of(1_000_000)
+        attacker.send_raw('set_ball_poses', data)
+        process.wait_for('set_ball_poses was rejected: 1000000 positions; the table has 11 balls')
+        is_served(observer)
+        assert process.stderr.count('1000000 positions') == 1
+        assert peak(process) - before < 5 * len(data)  # the middleware has it three times
+        plays_as_printed(observer)
+
+
+def test_a_request_of_a_million_characters_many_times_is_refused_each_time(ros):
+    with node_process(**FAST) as process:
+        observer, attacker = Listener(ros).wait_for_match(), Attacker(ros)
+        before = peak(process)
+        for _ in range(20):
+            attacker.send('shot/request', String(data='[' * 1_000_000))
+        observer._ros.spin_until(lambda: len(observer.responses) >= 20, 'the refusals')
+        assert {(r['code'], r['id']) for r in observer.responses} == {('BAD_REQUEST', None)}
+        assert peak(process) - before < 100 * 2**20
+        plays_as_printed(observer)
+
+
+def test_shots_that_were_reset_take_neither_memory_nor_time(ros):
+    slow = {'integrator': 'time_slice', 'time_slice': 1e-7, 'table.mu_ball_surface': 1e-4}
+    with node_process(max_shot_duration=1e5, **slow, **FAST) as process:
+        observer, attacker = Listener(ros).wait_for_match(), Attacker(ros)
+        before, end = resident(process), time.monotonic() + 3.0
+        while time.monotonic() < end:
+            attacker.send('cue_velocity', Twist(linear=Vector3(x=-4.0)))
+            observer.call(interface.RESET)
+        observer.responses.clear()
+        asked = time.monotonic()
+        shot = observer.ask(velocity=[0.001, 0.0])  # 10^7 slices
+        observer.wait_for_phase(shot, 'done')
+        assert time.monotonic() - asked < 10.0  # one of those before would take hours
+        assert resident(process) - before < 30 * 2**20
+
+
 def test_killed_and_restarted_while_a_client_waits(domain):
     with node_process() as node, Process('cli.shot', '1', '--timeout', '30') as client:
         client.wait_for('accepted')
@@ -219,8 +286,3 @@ def test_soak_an_hour_of_sim_time_takes_no_more_memory(ros, capsys):
 
 class HourObserver(Observer):
     TOPICS = (interface.SHOT_RESPONSE, interface.STATE, interface.TABLE)
-
-
-def resident(process):
-    pages = int(Path(f'/proc/{process._popen.pid}/statm').read_text().split()[1])
-    return pages * os.sysconf('SC_PAGE_SIZE')

@@ -98,6 +98,45 @@ def test_a_change_of_several_that_is_wrong_in_one_changes_none(changing):
     assert applied == []
 
 
+@pytest.mark.parametrize(
+    ('name', 'text', 'value'),
+    [('time_slice', '1e-6', 1e-6), ('step_ticks', '5', 5), ('step_ticks', 5.0, 5)],
+)
+def test_a_number_may_come_as_a_string_as_from_ros2_param_set(changing, name, text, value):
+    node, applied = changing
+    [result] = node.set_parameters([Parameter(name, value=text)])
+    assert result.successful, result.reason
+    now = node.get_parameter(name).value
+    assert now == value and type(now) is type(value)
+    assert getattr(applied[-1], name) == value
+    [result] = node.set_parameters([Parameter(name, value='much')])
+    assert not result.successful and result.reason
+    assert node.get_parameter(name).value == value
+
+
+def test_a_misspelt_name_is_warned_of_and_one_of_another_node_is_not(ros, capfd):
+    given = [
+        Parameter('real_time_facter', value=2.0),
+        Parameter('publish_clok', value=True),
+        Parameter('tabel.length', value=2.0),
+        Parameter('table.frame', value='map'),
+        Parameter('camera.rate', value=10),
+    ]
+    node = Node('strange', context=ros.context, parameter_overrides=given)
+    try:
+        assert declare_parameters(node).real_time_factor == 1.0
+    finally:
+        node.destroy_node()
+    lines = [line for line in capfd.readouterr().err.splitlines() if 'did you mean' in line]
+    assert len(lines) == 3
+    for name, ours in (
+        ('real_time_facter', 'real_time_factor'),
+        ('publish_clok', 'publish_clock'),
+        ('tabel.length', 'table.length'),
+    ):
+        assert any(f'{name} is not' in line and f'mean {ours}?' in line for line in lines)
+
+
 def test_parameters_of_others_are_none_of_our_business(changing):
     node, applied = changing
     node.declare_parameter('lamp', 3)

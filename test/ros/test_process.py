@@ -155,3 +155,18 @@ def test_the_process_is_left_though_a_thread_is_busy(domain, tmp_path):
     with Process(file) as process:
         assert process.wait() == 3
         assert process.stdout == 'leaving'
+
+
+def test_errors_of_a_node_that_cannot_be_made_are_told_and_others_are_not_hidden(capsys):
+    def main(error):
+        @ros_command('play_it', parser)
+        def run(context, options):
+            raise error
+
+        return run(['3'])
+
+    where = ', at /project/src/participant.cpp:364, at /project/src/rcl/node.c:252'
+    assert main(RuntimeError(f'error creating node: No security\nhere{where}')) == 1
+    assert capsys.readouterr().err == 'play_it: ROS cannot make a node: No security here\n'
+    with pytest.raises(RuntimeError, match='a mistake of ours'):
+        main(RuntimeError('a mistake of ours'))

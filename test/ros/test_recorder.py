@@ -75,3 +75,38 @@ def test_every_topic_that_shows_a_shot_is_recorded():
         for topic in vars(interface).values()
         if isinstance(topic, interface.Topic) and topic.name.startswith(('ball', 'shot', 'coll'))
     }
+
+
+def test_foreign_messages_are_recorded_and_do_no_harm(ros, capfd):
+    """Texts that are no responses, and bytes that are no messages."""
+    node = ros.node('fool')
+    topics = (interface.SHOT_RESPONSE, interface.STATE, interface.BALL_POSES)
+    responses, states, poses = (
+        node.create_publisher(topic.type, topic.of('filmed'), topic.qos) for topic in topics
+    )
+
+    def send():
+        for text in ('5', '', '[' * 100_000, '{"id": NaN}', '{"phase": "done"}', '9' * 5000):
+            responses.publish(messages.to_string(text))
+            states.publish(messages.to_string(text))
+        for data in (b'\0\1\0\0', b'\0\1\0\0' + b'\xff' * 40):
+            responses.publish(data)
+            poses.publish(data)
+
+    with spinning(ros.sim_node('filmed', report_integrator='event', real_time_factor=5.0)):
+        client = ShotClient(ros.context, 'filmed')
+        client.wait_for_simulator(PATIENCE)
+        recorder = Recorder(ros.context, 'filmed')
+        try:
+            recorder.wait_for_topics(PATIENCE)
+            node.create_timer(0.05, send)
+            with spinning(node):
+                response = client.play(3, timeout=PATIENCE)
+                recorder.wait_for_end(response, PATIENCE)
+        finally:
+            recorder.close()
+            client.close()
+    texts = [m.data for m in recorder.messages if m.topic is interface.SHOT_RESPONSE]
+    assert sum(b'"phase": "done", "code": "OK"' in text for text in texts) == 1
+    assert b'[[[[' in b''.join(texts)
+    assert 'left out' in capfd.readouterr().err

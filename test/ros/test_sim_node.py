@@ -1,18 +1,24 @@
 """The node in this process: what the topics, services and parameters do."""
 
 import json
+import threading
 import uuid
 
 import numpy as np
 import pytest
-from geometry_msgs.msg import Twist, Vector3
+from geometry_msgs.msg import Pose, PoseArray, Twist, Vector3
+from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
 from rclpy.parameter import Parameter
-from ros_harness import Observer
+from ros_harness import Observer, Ros
+from std_msgs.msg import String
+from survival import Attacker, is_served
 from waiting import PATIENCE
 
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
+from pool_sim_ros.ros.sim_node import SimNode
 from pool_sim_ros.simulator import ParameterError
+from pool_sim_ros.simulator.job import Job
 from pool_sim_ros.simulator.table_json import table_from_json
 
 FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
@@ -209,6 +215,31 @@ def test_pause_step_and_resume(ros):
     assert not answer.success and 'paused' in answer.message
 
 
+def test_steps_that_wait_for_a_shot_keep_nobody_waiting(ros, monkeypatch):
+    go_on = threading.Event()
+    run = Job.run
+
+    def wait_and_run(job):
+        assert go_on.wait(PATIENCE)
+        return run(job)
+
+    monkeypatch.setattr(Job, 'run', wait_and_run)
+    node = ros.sim_node(**FAST, start_paused=True)
+    observer = Observer(ros).wait_for_match()
+    shot = observer.ask(shot=1)
+    observer.wait_for_phase(shot, 'accepted')
+    client = observer.node.create_client(interface.STEP.type, interface.STEP.of('pool_sim'))
+    ros.spin_until(client.service_is_ready, 'the service')
+    steps = [client.call_async(interface.STEP.type.Request()) for _ in range(3)]
+    is_served(observer)
+    assert observer.call(interface.SET_PAUSED, data=True).success
+    [result] = node.set_parameters([Parameter('step_ticks', value=2)])
+    assert result.successful and not any(step.done() for step in steps)
+    go_on.set()
+    ros.spin_until(lambda: all(step.done() for step in steps), 'the steps')
+    assert [step.result().message for step in steps] == [f'at tick {tick}' for tick in (1, 3, 5)]
+
+
 def test_two_tables_do_not_hear_each_other(ros):
     ros.sim_node('left', **FAST)
     ros.sim_node('right', **FAST)
@@ -267,3 +298,116 @@ def test_a_table_of_another_size_with_other_balls(ros):
     assert done['as_printed'] is False and done['velocity'] == pytest.approx([1.5, 0.0])
     pose_array = observer.heard['ball_poses'][-1]
     assert [pose.position.z for pose in pose_array.poses] == [0.1, 0.05]
+
+
+def two_balls(**changes):
+    return [
+        Parameter('balls.labels', value=['C', 'red']),
+        Parameter('balls.masses', value=[0.2, 0.2]),
+        Parameter('balls.radii', value=[0.05, 0.05]),
+        Parameter('balls.positions', value=[0.2, 0.5, 0.6, 0.5]),
+        Parameter('balls.colors', value=[1.0] * 6),
+        *(Parameter(name, value=value) for name, value in changes.items()),
+    ]
+
+
+def test_two_nodes_in_one_process_live_in_two_namespaces(ros):
+    left = ros.add(SimNode(context=ros.context, namespace='left', parameter_overrides=two_balls()))
+    right = ros.add(SimNode('table', context=ros.context, namespace='/halls/right'))
+    assert left.get_fully_qualified_name() == '/left/pool_sim'
+    assert right.get_fully_qualified_name() == '/halls/right/table'
+    one = Observer(ros, '/left/pool_sim').wait_for_match()
+    other = Observer(ros, '/halls/right/table').wait_for_match()
+    [result] = right.set_parameters([Parameter('real_time_factor', value=20.0)])
+    assert result.successful
+    first = one.ask(velocity=[3.0, 0.0])
+    second = other.ask(velocity=[-3.0, 0.4])
+    ends = [o.wait_for_phase(a, 'done') for o, a in ((one, first), (other, second))]
+    assert [len(end['final_positions']) for end in ends] == [2, 11]
+    shot = simulate(report_table(), (-3.0, 0.4))
+    assert np.array_equal(list(ends[1]['final_positions'].values()), shot.final_positions)
+    assert {r['id'] for r in one.responses} == {first}
+    assert {r['id'] for r in other.responses} == {second}
+    assert one.call(interface.RESET).success and other.call(interface.RESET).success
+    assert left.get_parameter('real_time_factor').value == 1.0
+
+
+def test_a_node_heeds_the_arguments_of_the_process_unless_told_not_to(domain):
+    with Ros(domain, args=['--ros-args', '-r', '__ns:=/all', '-p', 'step_ticks:=7']) as ros:
+        heeds = ros.add(SimNode(context=ros.context))
+        alone = ros.add(
+            SimNode(
+                context=ros.context,
+                namespace='own',
+                use_global_arguments=False,
+                cli_args=['--ros-args', '-p', 'step_ticks:=3', '-r', '__node:=renamed'],
+            )
+        )
+        assert heeds.get_fully_qualified_name() == '/all/pool_sim'
+        assert heeds.get_parameter('step_ticks').value == 7
+        assert alone.get_fully_qualified_name() == '/own/renamed'
+        assert alone.get_parameter('step_ticks').value == 3
+
+
+def test_parameters_of_others_are_declared_only_where_that_is_asked_for(ros):
+    lamp = [Parameter('lamp', value=3)]
+    options = dict(context=ros.context, parameter_overrides=lamp)
+    plain = ros.add(SimNode('plain', **options))
+    assert not plain.has_parameter('lamp')
+    declared = ros.add(
+        SimNode('declared', automatically_declare_parameters_from_overrides=True, **options)
+    )
+    assert declared.get_parameter('lamp').value == 3
+    assert declared.describe_parameter('step_ticks').integer_range
+    free = ros.add(SimNode('free', allow_undeclared_parameters=True, **options))
+    [result] = free.set_parameters([Parameter('lamp', value=4)])
+    assert result.successful and free.get_parameter('lamp').value == 4
+
+
+def test_a_node_without_parameter_services_has_none(ros):
+    node = ros.add(SimNode(context=ros.context, start_parameter_services=False))
+    assert not [s.srv_name for s in node.services if 'set_parameters' in s.srv_name]
+    logged = ros.add(SimNode('logged', context=ros.context, enable_logger_service=True))
+    assert [s.srv_name for s in logged.services if 'logger' in s.srv_name]
+
+
+@pytest.mark.parametrize(
+    ('options', 'error', 'words'),
+    [
+        ({'namespace': 'a b'}, InvalidNamespaceException, 'namespace'),
+        ({'namespace': '/a/'}, InvalidNamespaceException, 'namespace'),
+        ({'namespace': 1}, TypeError, 'namespace must be a string'),
+        ({'node_name': 'a-b'}, InvalidNodeNameException, 'node name'),
+        ({'node_name': ''}, InvalidNodeNameException, 'node name'),
+        ({'cli_args': '--ros-args'}, TypeError, 'cli_args must be a list'),
+        ({'cli_args': ['--ros-args', '-p', 'x']}, RuntimeError, "'-p x'"),
+        ({'use_global_arguments': 'no'}, TypeError, 'use_global_arguments must be true or false'),
+        ({'parameter_overrides': [('a', 1)]}, TypeError, 'parameter_overrides must be a list'),
+        ({'parameter_overrides': two_balls(time_slice=5e-8)}, ParameterError, 'time_slice'),
+        ({'colour': 'green'}, TypeError, 'colour'),
+    ],
+)
+def test_a_bad_option_is_told_and_leaves_no_node_behind(ros, options, error, words):
+    with pytest.raises(error, match=words):
+        SimNode(**{'context': ros.context, **options})
+    assert ros.node().count_publishers('/pool_sim/state') == 0
+
+
+def test_a_command_that_is_too_long_or_none_is_refused_in_a_line(ros, capfd):
+    ros.sim_node(**FAST)
+    observer = Observer(ros).wait_for_match()
+    attacker = Attacker(ros)
+    attacker.send('shot/request', String(data='x' * 100_000))
+    attacker.send_raw('cue_velocity', b'\0\1\0\0' + bytes(3))
+    answers = observer.wait_for_responses(2)
+    assert {(r['code'], r['phase']) for r in answers} == {('BAD_REQUEST', 'rejected')}
+    assert all('bytes' in r['reason'] for r in answers)
+    is_served(observer)
+    logged = []
+
+    def told():
+        attacker.send('set_ball_poses', PoseArray(poses=[Pose()] * 2000))
+        logged.append(capfd.readouterr().err)
+        return 'set_ball_poses was rejected: 2000 positions' in ''.join(logged)
+
+    ros.spin_until(told, 'the line')

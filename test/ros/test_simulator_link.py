@@ -126,3 +126,41 @@ def test_many_can_be_made_and_none_offers_a_service(ros):
     finally:
         for link in links:
             link.close()
+
+
+def test_texts_that_make_no_sense_are_left_out_with_a_line_now_and_then(link, left, capfd):
+    numbers = []
+    subscription = link.subscribe_text(interface.SHOT_RESPONSE, int, numbers.append)
+    wait_until(subscription.get_publisher_count, 'the match')
+    for text in (*map(str, range(5)), *['x\n' * 1000] * 50, '7'):
+        left.publish(String(data=text))
+    spin_until(link, lambda: 7 in numbers)
+    assert numbers == [0, 1, 2, 3, 4, 7]
+    lines = [line for line in capfd.readouterr().err.splitlines() if 'left out' in line]
+    assert 1 <= len(lines) <= 5 and all(len(line) < 500 for line in lines)
+
+
+def test_nodes_with_the_name_of_the_simulator_are_counted(ros, link):
+    assert link.count_simulators() == 0
+    ros.node('right')
+    ros.sim_node('left')
+    ros.spin_until(lambda: link.count_simulators() == 1, 'the simulator')
+
+
+def test_texts_that_are_no_unicode_are_left_out_too(link, left, capfd):
+    """Half of a surrogate pair: rclpy hands it over, and no log can write it."""
+
+    def read(text):
+        if text == 'after':
+            return text
+        raise ValueError(f'not {text}')
+
+    heard = []
+    subscription = link.subscribe_text(interface.SHOT_RESPONSE, read, heard.append)
+    wait_until(subscription.get_publisher_count, 'the match')
+    text = b'\xed\xa0\x80 x\0'
+    left.publish(b'\0\1\0\0' + len(text).to_bytes(4, 'little') + text)
+    left.publish(String(data='after'))
+    spin_until(link, lambda: heard)
+    assert heard == ['after']
+    assert 'left out' in capfd.readouterr().err

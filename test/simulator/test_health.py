@@ -96,3 +96,31 @@ def test_a_long_shot_is_sampled():
     energies = np.linspace(9.0, 1.0, 20 * ENERGY_SAMPLES)
     energies[10 * ENERGY_SAMPLES :] += 4.0
     assert energy_rise(Recharged(energies)) == pytest.approx(4.0 / 9.0, rel=1e-2)
+
+
+RACK = tuple(
+    Ball(
+        f'{row}{place}', 0.17, 0.028, (1.2 + row * 0.028 * 3**0.5, 0.5 + (2 * place - row) * 0.028)
+    )
+    for row in range(5)
+    for place in range(row + 1)
+)
+
+
+@pytest.mark.parametrize('e', [0.0, 0.5, 0.9, 1.0])
+@pytest.mark.parametrize('speed', [1e-4, 1e-3, 1e-2, 0.1, 1.0, 8.0])
+def test_a_strike_within_a_rack_that_touches_is_not_warned_of(speed, e):
+    """Weak contacts may add what parting at V_MIN takes: docs/physics.md allows that."""
+    cue = Ball('C', 0.17, 0.028, (1.2 - 0.056, 0.5), is_cue=True)
+    table = Table(2.5, 1.2, (cue, *RACK), ball_friction='coulomb', e_ball_ball=e, e_cue_ball=e)
+    health = Health()
+    health.shot(0.1, energy_rise(simulate(table, (speed, 0.1 * speed))), False)
+    assert diagnose(health).warning == ''
+
+
+@pytest.mark.parametrize(('after', 'warned'), [(7.9, False), (8.0 + 3e-8, False), (8.0008, True)])
+def test_a_rise_that_weak_contacts_cannot_make_is_warned_of(after, warned):
+    """Two balls of 2 kg: 1.6e-7 J are allowed at four events."""
+    health = Health()
+    health.shot(0.1, energy_rise(Recharged([8.0, 8.0, after, 7.0, 7.0])), False)
+    assert bool(diagnose(health).warning) == warned

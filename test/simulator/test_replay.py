@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fakes import Recorder
-from waiting import wait_until
+from waiting import PATIENCE, wait_until
 
 from pool_sim_ros.ros.digest import digests
 from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
@@ -61,7 +61,7 @@ def varied_session(runner, output):
     runner.apply(SETTINGS)
     assert runner.place(ELSEWHERE * 1.001) is None
     response = runner.request('3')
-    runner.step()
+    assert runner.step().result(PATIENCE)[0]
     runner.set_paused(False)
     done(output, response)
     runner.reset()
@@ -117,7 +117,7 @@ def test_of_many_resets_in_a_tick_one_line_is_left(tmp_path):
         runner.set_paused(True)
         for _ in range(1000):
             runner.reset()
-        runner.step()
+        assert runner.step().result(PATIENCE)[0]
 
     record(log, SETTINGS, play)
     assert [command['command'] for command in read_log(log)[1]] == ['reset', 'end']
@@ -163,13 +163,15 @@ def test_balls_are_placed_in_the_middle_of_a_shot_as_after_a_reset_in_the_same_t
     assert np.array_equal(frames[20].positions, ELSEWHERE)
 
 
-def test_what_a_limit_of_the_speed_let_through_once_is_played_under_any():
-    slow = replace(SETTINGS, max_cue_speed=0.001)
+def test_a_strike_above_the_limit_that_counts_at_its_tick_is_refused():
+    slow = replace(SETTINGS, max_cue_speed=0.5)
     strike = {'tick': 0, 'command': 'strike', 'velocity': (0.3, 0.1)}
-    change = {'tick': 90, 'command': 'set', 'parameters': {'max_cue_speed': 0.002}}
+    change = {'tick': 90, 'command': 'set', 'parameters': {'max_cue_speed': 0.2}}
     again = {'tick': 600, 'command': 'strike', 'velocity': (0.2, 0.1)}
-    frames = frames_of(strike, change, again, settings=slow)
+    frames = frames_of(strike, again, settings=slow)
     assert [frame.tick for frame in frames if frame.started] == [0, 600]
+    with pytest.raises(LogError, match=r'^tick 600, strike: .* max_cue_speed, 0\.2 m/s'):
+        frames_of(strike, change, again, settings=slow)
 
 
 @pytest.mark.parametrize(
@@ -181,7 +183,7 @@ def test_what_a_limit_of_the_speed_let_through_once_is_played_under_any():
         ([{'command': 'place', 'positions': np.ones((11, 2))}], ['overlap']),
         ([{'command': 'set', 'parameters': {'publish_rate': 9}}], ['publish_rate', 'start-up']),
         ([{'command': 'shot', 'shot': 1}] * 2, ['moving']),
-        ([{'command': 'strike', 'velocity': (1e7, 0.0)}], ['velocities']),
+        ([{'command': 'strike', 'velocity': (1e7, 0.0)}], ['max_cue_speed']),
         (
             [
                 {'command': 'set', 'parameters': {'max_shot_duration': 0.5}},

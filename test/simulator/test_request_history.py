@@ -14,12 +14,10 @@ def test_made_ids_are_never_the_same():
     assert len(set(ids)) == 200
 
 
-def test_finds_the_latest_response_and_the_content():
+def test_finds_the_response_and_the_content():
     history = RequestHistory()
     assert history.find('a') is None
-    add(history, 'a', Phase.ACCEPTED)
-    done = Response(id='a', phase=Phase.DONE)
-    history.update(done.id, done)
+    done = add(history, 'a', Phase.DONE)
     assert history.find('a') == ('content of a', done)
 
 
@@ -30,21 +28,14 @@ def test_the_oldest_is_forgotten_beyond_the_capacity():
     assert [history.find(name) is not None for name in 'abcd'] == [False, True, True, True]
 
 
-def test_the_shot_in_hand_is_not_forgotten():
-    history = RequestHistory(capacity=3)
-    add(history, 'in hand', Phase.ACCEPTED)
-    for number in range(10):
-        add(history, str(number))
-    assert history.find('in hand') is not None
-    done = Response(id='in hand', phase=Phase.DONE)
-    history.update(done.id, done)
-    add(history, 'one more')
-    assert history.find('in hand')[1] is done
-
-
-def test_requests_without_an_id_do_not_push_out_those_with_one():
-    history = RequestHistory(capacity=3)
+def test_a_made_id_is_known_by_its_beginning_and_takes_no_room():
+    history = RequestHistory(prefix='node', capacity=3)
+    made = history.make_id()
+    assert made == 'node-1'
+    assert all(history.is_made(name) for name in (made, 'node-2', 'node', 'nodes'))
+    assert not any(history.is_made(name) for name in ('nod', 'a-node-1', 'Node-1', ''))
     add(history, 'a')
     for _ in range(10):
         add(history, history.make_id())
     assert history.find('a') is not None
+    assert history.find(made) is None

@@ -1,5 +1,6 @@
 import threading
 import time
+import weakref
 from dataclasses import replace
 from itertools import pairwise
 
@@ -9,6 +10,7 @@ from fakes import Recorder
 from waiting import PATIENCE, wait_until
 
 from pool_sim_ros.simulator import runner as runner_module
+from pool_sim_ros.simulator import steps as steps_module
 from pool_sim_ros.simulator.job import Job
 from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.runner import Runner
@@ -107,6 +109,98 @@ def test_a_reset_while_computing_answers_at_once_and_the_result_is_dropped(start
     assert runner.reset() is False
 
 
+def test_of_many_shots_that_were_reset_only_the_last_one_is_computed(start, monkeypatch):
+    runs, go_on = [], threading.Event()
+    run = Job.run
+
+    def wait_and_run(job):
+        runs.append(job)
+        assert go_on.wait(PATIENCE)
+        return run(job)
+
+    runner, output = start()
+    assert runner.ready.wait(PATIENCE)
+    monkeypatch.setattr(Job, 'run', wait_and_run)
+    runner.request('1')
+    wait_until(lambda: runs, 'the first shot')
+    jobs = []
+    for _ in range(1000):
+        runner.reset()
+        assert runner.request('{"velocity": [-1, 0]}').phase is Phase.ACCEPTED
+        jobs.append(weakref.ref(runner._simulation._shot.job))
+    assert sum(job() is not None for job in jobs) == 1
+    go_on.set()
+    wait_for_phase(output, Phase.DONE)
+    assert len(runs) == 2
+
+
+def test_a_reset_ends_the_computing_of_a_shot_that_would_take_hours(start):
+    table = replace(SETTINGS.table, mu_ball_surface=1e-4)
+    runner, output = start(
+        report_integrator='time_slice', time_slice=1e-7, max_shot_duration=1e5, table=table
+    )
+    assert runner.ready.wait(PATIENCE)
+    for _ in range(3):
+        runner.request('1')
+        wait_until(lambda: output.all('state')[-1]['computing'], 'the computing')
+        runner.reset()
+    runner.apply(replace(SETTINGS, table=table))
+    runner.request('{"velocity": [0.01, 0]}')
+    wait_for_phase(output, Phase.DONE)
+
+
+def test_a_stop_ends_the_computing_too(start):
+    table = replace(SETTINGS.table, mu_ball_surface=1e-4)
+    runner, _ = start(
+        report_integrator='time_slice', time_slice=1e-7, max_shot_duration=1e5, table=table
+    )
+    assert runner.ready.wait(PATIENCE)
+    runner.request('1')
+    assert runner.stop(PATIENCE) is True
+
+
+def test_others_are_served_while_steps_wait(start, slow_shots):
+    runner, output = start(start_paused=True, step_ticks=2)
+    assert runner.ready.wait(PATIENCE)
+    runner.request('1')
+    steps = [runner.step() for _ in range(5)]
+    assert runner.request('2').code is Code.BUSY
+    assert not any(step.done() for step in steps) and output.all('frame') == []
+    slow_shots.set()
+    assert [step.result(PATIENCE) for step in steps] == [
+        (True, f'at tick {tick}') for tick in (1, 3, 5, 7, 9)
+    ]
+
+
+def test_a_reset_lets_waiting_steps_go_on(start, slow_shots):
+    runner, output = start(start_paused=True)
+    assert runner.ready.wait(PATIENCE)
+    runner.request('1')
+    stepped = runner.step()
+    runner.reset()
+    assert stepped.result(PATIENCE) == (True, 'at tick 0')
+    assert not output.all('frame')[0].started
+
+
+def test_a_stop_answers_the_steps_that_wait(start, slow_shots):
+    runner, _ = start(start_paused=True)
+    assert runner.ready.wait(PATIENCE)
+    runner.request('1')
+    stepped = runner.step()
+    runner.stop(0.0)
+    assert stepped.result(PATIENCE)[0] is False
+
+
+def test_a_command_that_was_refused_unread_is_counted(start):
+    runner, output = start()
+    runner.refuse('set_ball_poses: too long')
+    wait_until(
+        lambda: any(d.values['rejected commands'] == '1' for _, d in output.all('diagnostics')),
+        'the count',
+    )
+    assert output.all('diagnostics')[-1][1].values['last rejection'] == 'set_ball_poses: too long'
+
+
 def test_as_fast_as_possible_still_answers_in_between(start):
     for_hours = replace(
         SETTINGS.table,
@@ -160,24 +254,26 @@ def test_a_step_waits_for_the_result_and_advances_step_ticks(start, slow_shots):
     runner, output = start(start_paused=True, step_ticks=3)
     assert runner.ready.wait(PATIENCE)
     runner.request('1')
-    threading.Timer(0.2, slow_shots.set).start()
-    assert runner.step() == (True, 'at tick 2')
+    stepped = runner.step()
+    assert not stepped.done()
+    slow_shots.set()
+    assert stepped.result(PATIENCE) == (True, 'at tick 2')
     assert [f.tick for f in output.all('frame')] == [0, 1, 2]
     assert output.all('frame')[0].started
 
 
 def test_a_step_gives_up_on_a_result_that_does_not_come(start, slow_shots, monkeypatch):
-    monkeypatch.setattr(runner_module, 'STEP_PATIENCE', 0.01)
+    monkeypatch.setattr(steps_module, 'STEP_PATIENCE', 0.01)
     runner, output = start(start_paused=True)
     runner.request('1')
-    stepped, words = runner.step()
+    stepped, words = runner.step().result(PATIENCE)
     assert not stepped and 'computed' in words
     assert output.all('frame') == []
 
 
 def test_a_step_while_playing_is_an_error(start):
     runner, _ = start()
-    stepped, words = runner.step()
+    stepped, words = runner.step().result(PATIENCE)
     assert not stepped and 'set_paused' in words
 
 

@@ -1,10 +1,14 @@
+import math
 from dataclasses import replace
 
 import pytest
 
 from pool_sim_ros.physics import report_table
+from pool_sim_ros.simulator.parameter_table import PARAMETERS, Change, default_values
 from pool_sim_ros.simulator.parameter_values import ParameterError, values_from
 from pool_sim_ros.simulator.settings import build_settings, values_of
+from pool_sim_ros.simulator.shot_request import Phase
+from pool_sim_ros.simulator.simulation import Simulation
 
 TWO_BALLS = {
     'balls.labels': ['C', 'red'],
@@ -76,3 +80,41 @@ def test_the_settings_are_those_of_the_print_with_the_report_table_integrator_an
     ):
         assert len(replace(report, **{name: value}).deviations) == 1
     assert replace(report, integrator='time_slice').deviations == []
+
+
+def test_a_message_is_short_however_long_the_labels_are():
+    values = default_values()
+    values['balls.labels'] = [f'{k}' + 'x' * 100_000 for k in range(11)]
+    values['balls.positions'] = [0.5] * 22
+    with pytest.raises(ParameterError, match=r"ball '0x+") as error:
+        build_settings(values)
+    assert len(str(error.value)) < 500
+
+
+def edges_at_start():
+    """Yield (name, value) for both ends of each range of what is fixed at start-up."""
+    for name, spec in PARAMETERS.items():
+        if spec.change is Change.NEVER and type(spec.default) in (int, float):
+            for edge in (spec.least, spec.most):
+                yield name, type(spec.default)(edge)
+
+
+@pytest.mark.parametrize(('name', 'edge'), list(edges_at_start()))
+def test_a_table_at_the_edge_of_a_range_is_refused_in_a_line_or_answers_every_shot(name, edge):
+    for beyond in (math.nextafter(edge, -math.inf), math.nextafter(edge, math.inf)):
+        if not PARAMETERS[name].least <= beyond <= PARAMETERS[name].most:
+            with pytest.raises(ParameterError, match=name):
+                settings_from({name: beyond})
+    try:
+        settings = settings_from({name: edge, 'time_slice': 1e-4})
+    except ParameterError as error:
+        assert '\n' not in str(error) and edge == PARAMETERS[name].least
+        return
+    simulation = Simulation(settings)
+    for request in ('1', '{"velocity": [-1.0, 0.1]}'):
+        accepted, job = simulation.request(request)
+        assert accepted.phase is Phase.ACCEPTED
+        preempted = simulation.computed(job, job.run())
+        assert all(response.reason for response in preempted)
+        while not (preempted or simulation.at_rest):
+            simulation.next_frame()

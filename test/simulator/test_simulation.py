@@ -7,7 +7,16 @@ import pytest
 from fakes import Glide
 
 from pool_sim_ros.me212.shots import cue_velocity
-from pool_sim_ros.physics import Ball, ShotTooLong, Table, report_table, simulate
+from pool_sim_ros.physics import (
+    Ball,
+    ShotCancelled,
+    ShotTooLong,
+    Table,
+    report_table,
+    simulate,
+)
+from pool_sim_ros.simulator import job as job_module
+from pool_sim_ros.simulator import simulation as simulation_module
 from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.settings import build_settings
 from pool_sim_ros.simulator.shot_request import Code, Phase
@@ -248,6 +257,50 @@ def test_a_thousand_rejections_do_not_make_it_forget_the_shot_in_hand(simulation
     assert done.id == 'a'
 
 
+def test_a_thousand_requests_without_an_id_do_not_either_nor_does_a_guess_of_its_id(simulation):
+    accepted, job = simulation.request('{"velocity": [0.5, 0]}')
+    prefix, _, count = accepted.id.rpartition('-')
+    for guess in (accepted.id, f'{prefix}-{int(count) + 1}', prefix, f'{prefix}x'):
+        for text in ('"velocity": [0.5, 0]', '"shot": 1'):
+            response, none = simulation.request(f'{{"id": "{guess}", {text}}}')
+            assert (response.phase, response.code, none) == (Phase.REJECTED, Code.BAD_REQUEST, None)
+            assert response.id == guess and prefix in response.reason
+    for _ in range(1500):
+        assert simulation.request('1')[0].code is Code.BUSY
+    compute(simulation, job)
+    _, [done] = frames_until_done(simulation)
+    assert (done.id, done.phase) == (accepted.id, Phase.DONE)
+
+
+def test_a_shot_without_an_id_may_follow_a_guess_of_its_id(simulation):
+    first, _ = simulation.request('9')
+    prefix, _, count = first.id.rpartition('-')
+    simulation.request(json.dumps({'id': f'{prefix}-{int(count) + 1}', 'shot': 9}))
+    accepted, job = simulation.request('2')
+    for _ in range(1500):
+        simulation.request('1')
+    assert [response.id for response in simulation.reset()] == [accepted.id]
+
+
+def test_the_computing_of_a_shot_that_is_preempted_is_cancelled():
+    simulation = Simulation(build_settings({**default_values(), 'time_slice': 1e-7}))
+    for give_up in (simulation.reset, simulation.close):
+        _, job = simulation.request('1')
+        give_up()
+        with pytest.raises(ShotCancelled):
+            job.run()
+
+
+def test_a_shot_of_too_many_slices_is_preempted_with_that_reason(monkeypatch):
+    monkeypatch.setattr(job_module, 'MOST_SLICES', 1000)
+    monkeypatch.setattr(simulation_module, 'MOST_SLICES', 1000)
+    simulation = Simulation(build_settings({**default_values(), 'time_slice': 1e-4}))
+    _, job = simulation.request('1')
+    [response] = compute(simulation, job)
+    assert (response.phase, response.code) == (Phase.PREEMPTED, Code.TOO_LONG)
+    assert '1000 slices' in response.reason and '0.1 s' in response.reason
+
+
 def test_nothing_moves_in_a_shot_of_no_length(simulation):
     _, job = simulation.request('{"velocity": [1, 0]}')
     positions = report_table().positions
@@ -300,6 +353,18 @@ def test_what_is_no_layout_changes_nothing(simulation):
     assert 'overlap' in simulation.place(np.ones((11, 2)))
     frame, _ = simulation.next_frame()
     assert np.array_equal(frame.positions, positions)
+
+
+@pytest.mark.parametrize(
+    'frame_id', ['map', '/table', 'Table', 'table ', 'x' * 1_000_000], ids=range(5)
+)
+def test_balls_are_not_placed_in_a_frame_of_others(simulation, frame_id):
+    positions = report_table().positions * [1.0, 0.98]
+    refusal = simulation.place(positions, frame_id)
+    assert repr(frame_id[:50])[:-1] in refusal and "must be 'table', or empty" in refusal
+    assert len(refusal) < 200
+    for own in ('table', ''):
+        assert simulation.place(positions, own) is None
 
 
 def test_balls_are_not_placed_while_a_shot_is_in_hand(simulation):

@@ -3,6 +3,7 @@
 import re
 import subprocess
 
+import imageio_ffmpeg  # noqa: F401 - without it there are no films
 import numpy as np
 
 from pool_sim_ros.report.drawing import CLOTH

@@ -3,6 +3,8 @@
 import re
 from html.parser import HTMLParser
 
+import pytest
+
 from pool_sim_ros.report.page import Content, make_page
 
 VOID = {'meta', 'img', 'br', 'mspace'}
@@ -88,11 +90,37 @@ class AnyPicture(dict):
         return b'<svg/>'
 
 
+def html_of(settings, shots, comparisons=(), films=None):
+    """Return the HTML of the report's page, with empty pictures."""
+    pytest.importorskip('latex2mathml', reason='pip install latex2mathml')
+    content = Content(settings, shots, comparisons, AnyPicture(), films or {}, ['output.log'])
+    return make_page(content)
+
+
 def page_of(settings, shots, comparisons=(), films=None):
     """Return the report's page with empty pictures; nothing in it is left to fill in."""
-    content = Content(settings, shots, comparisons, AnyPicture(), films or {}, ['output.log'])
-    html = make_page(content)
+    html = html_of(settings, shots, comparisons, films)
     assert not re.search(r'\$[a-z]', html)
     assert '\\(' not in html
     assert '\\[' not in html
     return Page(html)
+
+
+class _Skeleton(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.found = []
+
+    def handle_starttag(self, tag, attrs):
+        self.found.append((tag, *(name for name, _ in attrs)))
+
+    def handle_endtag(self, tag):
+        self.found.append(f'/{tag}')
+
+
+def skeleton(html):
+    """Return all tags of a page with the names of their attributes, in order: all but its text."""
+    reader = _Skeleton()
+    reader.feed(html)
+    reader.close()
+    return reader.found

@@ -22,16 +22,16 @@ class Process:
             status = process._popen.poll()
             assert status is None, f'ended with status {status}:\n{process.stderr}'
 
-    def __init__(self, module, *args, stdout=subprocess.PIPE):
-        """Start a module of the package, or a file."""
+    def __init__(self, module, *args, stdout=subprocess.PIPE, prefix=(), env=None):
+        """Start a module of the package, or a file; through the command `prefix`, if any."""
         command = [module] if isinstance(module, Path) else ['-m', f'pool_sim_ros.{module}']
         self._popen = subprocess.Popen(
-            [sys.executable, *command, *args],
+            [*prefix, sys.executable, *command, *args],
             stdout=stdout,
             stderr=subprocess.PIPE,
             stdin=subprocess.DEVNULL,
             text=True,
-            env=_environment(module),
+            env=_environment(module) | (env or {}),
         )
         self._texts = {'stdout': [], 'stderr': []}
         self._readers = [
@@ -58,6 +58,10 @@ class Process:
     def _read(self, name):
         for line in getattr(self._popen, name):
             self._texts[name].append(line)
+
+    @property
+    def pid(self):
+        return self._popen.pid
 
     @property
     def stdout(self):

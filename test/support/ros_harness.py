@@ -42,13 +42,13 @@ def own_domain():
 class Ros:
     """A context and an executor; ends whatever was made with it, in reverse order."""
 
-    def __init__(self, domain):
-        self._domain = domain
+    def __init__(self, domain, args=()):
+        self.domain, self._args = domain, list(args)
         self._stack = contextlib.ExitStack()
 
     def __enter__(self):
         self.context = Context()
-        rclpy.init(args=[], context=self.context, domain_id=self._domain)
+        rclpy.init(args=self._args, context=self.context, domain_id=self.domain)
         self._stack.callback(self.context.try_shutdown)
         self.executor = SingleThreadedExecutor(context=self.context)
         self._stack.callback(self.executor.shutdown, 0.0)

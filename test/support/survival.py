@@ -1,5 +1,10 @@
 """Attack a node, and see whether it still plays as printed."""
 
+import os
+from pathlib import Path
+
+from ros_harness import Observer
+
 from pool_sim_ros.me212.log import published_final_positions
 from pool_sim_ros.ros import interface
 
@@ -32,6 +37,28 @@ class Attacker:
             assert 'cannot publish data' in str(error)
             return False
         return True
+
+
+class Listener(Observer):
+    """Hears the little that most checks need: a node that runs fast sends a flood of frames."""
+
+    TOPICS = (interface.SHOT_RESPONSE, interface.STATE, interface.TABLE)
+
+    def _keeper(self, topic):
+        keep = super()._keeper(topic)
+        return lambda message: keep(message) if message.data else None  # none of the node is empty
+
+    def forget(self):
+        """Forget all but the latest."""
+        self.responses.clear()
+        for heard in self.heard.values():
+            del heard[:-1]
+
+
+def resident(process):
+    """Return the memory that a process has, in bytes."""
+    pages = int(Path(f'/proc/{process._popen.pid}/statm').read_text().split()[1])
+    return pages * os.sysconf('SC_PAGE_SIZE')
 
 
 def plays_as_printed(observer):

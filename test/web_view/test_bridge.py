@@ -74,7 +74,7 @@ def test_a_request_is_answered_and_everything_is_told_within_the_loop(ros, node)
     async def use(bridge, listener):
         assert bridge.simulator == '/pool_sim'
         await until(bridge.is_matched, 'the simulator')
-        bridge.request(shot=3)
+        await bridge.request(shot=3)
         await until(lambda: len(listener.all('response')) == 2, 'the end')
         await until(lambda: bridge.latest_poses() is not None, 'the poses')
         assert listener.loops == {asyncio.get_running_loop()}
@@ -93,7 +93,7 @@ def test_responses_of_the_past_are_not_told(ros, node):
     async def use(bridge, listener):
         await until(bridge.is_matched, 'the simulator')
         await until(lambda: listener.all('table'), 'what is latched')
-        bridge.request(shot=9)
+        await bridge.request(shot=9)
         await until(lambda: listener.all('response'), 'the answer')
         return [response['id'] for response in listener.all('response')]
 
@@ -163,3 +163,64 @@ def test_what_makes_no_sense_is_left_out_and_the_rest_goes_on(ros):
         return listener.all('state')
 
     assert run(ros, use, 'mad') == [{'tick': 1}]
+
+
+def test_a_request_is_sent_again_until_it_is_answered(ros, monkeypatch):
+    """A recorder hears the first one; the simulator only starts then."""
+    monkeypatch.setattr(module, 'RESEND', 0.1)
+    monkeypatch.setattr(module, 'PATIENCE', PATIENCE)
+    topic, heard = interface.SHOT_REQUEST, []
+    recorder = ros.node('recorder')
+    recorder.create_subscription(
+        topic.type, topic.of('pool_sim'), lambda request: heard.append(request.data), topic.qos
+    )
+
+    async def use(bridge, listener):
+        asking = asyncio.create_task(bridge.request(shot=3))
+        await until(lambda: len(heard) >= 2, 'the request that is lost')
+        assert not asking.done()
+        with spinning(ros.sim_node(report_integrator='event', real_time_factor=10.0)):
+            await asking
+            await until(
+                lambda: 'done' in [response['phase'] for response in listener.all('response')],
+                'the end',
+            )
+        return listener.all('response')
+
+    with spinning(recorder):
+        responses = run(ros, use)
+    assert len(set(heard)) == 1 and len({response['id'] for response in responses}) == 1
+
+
+def test_a_request_that_nobody_answers_is_given_up(ros, monkeypatch):
+    monkeypatch.setattr(module, 'RESEND', 0.05)
+    monkeypatch.setattr(module, 'PATIENCE', 0.2)
+
+    async def use(bridge, listener):
+        with pytest.raises(NoAnswerError, match='^/hall/nobody does not answer'):
+            await bridge.request(shot=3)
+        assert bridge._asked == {}
+
+    run(ros, use, '/hall/nobody')
+
+
+@pytest.mark.parametrize(
+    'text', ['', '5', '[]', '[' * 100_000, '{"id": {}}', 'NaN', '9' * 5000], ids=range(7)
+)
+def test_a_foreign_response_is_left_out_and_the_rest_goes_on(ros, node, text):
+    topic = interface.SHOT_RESPONSE
+    publisher = ros.node('fool').create_publisher(topic.type, topic.of('pool_sim'), topic.qos)
+
+    async def use(bridge, listener):
+        await until(bridge.is_matched, 'the simulator')
+        await until(publisher.get_subscription_count, 'the bridge')
+        left_out = []
+        bridge.left_out = left_out.append
+        publisher.publish(messages.to_string(text))
+        await until(lambda: left_out, 'the complaint')
+        await bridge.request(shot=9)
+        return left_out, listener.all('response')
+
+    left_out, responses = run(ros, use)
+    assert len(left_out) == 1 and len(str(left_out[0])) < 300
+    assert [response['code'] for response in responses] == ['UNKNOWN_SHOT']

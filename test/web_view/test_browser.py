@@ -1,19 +1,16 @@
 """The page in a real browser: Chromium, without a window."""
 
 import os
-import shutil
 import time
 
+import chromium  # first: it skips all of this where there is no browser
 import numpy as np
 import pytest
 
-CHROMIUM = next(filter(None, map(shutil.which, ('chromium', 'chromium-browser'))), None)
-if CHROMIUM is None:
-    pytest.skip('Chromium is missing: apt install chromium', allow_module_level=True)
-pytest.importorskip('aiohttp', reason="aiohttp is missing: pip install 'pool_sim_ros[web]'")
-sync_api = pytest.importorskip('playwright.sync_api', reason='pip install playwright')
+pytest.importorskip('aiohttp', reason='pip install aiohttp')
 
 from paths import distance_to_way  # noqa: E402
+from process_harness import start_node  # noqa: E402
 from site_harness import simulator, web_view  # noqa: E402
 from waiting import PATIENCE  # noqa: E402
 
@@ -22,15 +19,6 @@ from pool_sim_ros.physics import report_table  # noqa: E402
 TABLE = report_table()
 DESKTOP = {'width': 1280, 'height': 800}
 PHONE = {'width': 390, 'height': 844}
-SWITCHES = [
-    '--no-sandbox',
-    '--disable-gpu',
-    '--disable-quic',
-    '--no-first-run',
-    '--disable-background-networking',
-    '--disable-component-update',
-    '--disable-sync',
-]
 
 
 class Page:
@@ -100,10 +88,8 @@ class Page:
 
 @pytest.fixture(scope='module')
 def browser():
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=SWITCHES)
+    with chromium.open_browser() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture(scope='module')
@@ -275,6 +261,46 @@ def test_it_says_what_is_wrong_and_comes_back_by_itself(domain, show):
                 page.wait_for_rest()
                 page.press('1')
                 page.wait('page.state.moving')
+
+
+def test_a_cold_start_says_that_it_compiles_and_a_shot_waits_visibly(
+    domain, show, tmp_path, monkeypatch
+):
+    monkeypatch.setenv('NUMBA_CACHE_DIR', str(tmp_path))
+    named = ['--ros-args', '-r', '__node:=cold']
+    with start_node(*named), web_view('--node', 'cold') as site:
+        page = show(site.address)
+        page.wait("document.getElementById('notice').textContent.includes('about 15 s')")
+        assert page.page.is_visible('#notice')
+        page.page.click('[data-shot="3"]')
+        page.wait("document.getElementById('notice').textContent.startsWith('Your shot waits')")
+        assert page.text('state') == 'waiting'
+        page.wait('page.state.moving')
+        page.wait("document.getElementById('notice').hidden")
+
+
+EVIL = '<img src=x onerror="document.title = 1">'
+
+
+def test_a_label_is_text_and_no_script_runs_that_gets_into_the_page(domain, show):
+    labels = f"['C', '{EVIL}']"
+    named = ['--ros-args', '-r', '__node:=evil']
+    table = {
+        'balls.labels': labels,
+        'balls.masses': '[0.2, 0.2]',
+        'balls.radii': '[0.03, 0.03]',
+        'balls.positions': '[1.0, 0.5, 0.5, 0.5]',
+        'balls.colors': '[1.0, 1.0, 1.0, 0.0, 0.0, 0.0]',
+    }
+    with simulator(*named, **table), web_view('--node', 'evil') as site:
+        page = show(site.address)
+        page.wait_for_rest()
+        title = page.page.title()
+        page.page.click('#shoot')
+        page.wait("!document.getElementById('result').hidden")
+        assert EVIL in page.text('positions') and EVIL in page.text('collisions')
+        assert chromium.inject_scripts(page.page) == []
+        assert page.page.title() == title
 
 
 @pytest.mark.skipif('SCREENSHOTS' not in os.environ, reason='SCREENSHOTS names no folder')

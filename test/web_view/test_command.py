@@ -6,7 +6,7 @@ import socket
 
 import pytest
 
-aiohttp = pytest.importorskip('aiohttp', reason="pip install 'pool_sim_ros[web]'")
+aiohttp = pytest.importorskip('aiohttp', reason='pip install aiohttp')
 
 from process_harness import Process  # noqa: E402
 from site_harness import talk, web_view  # noqa: E402
@@ -34,7 +34,13 @@ def test_a_port_that_is_taken_is_one_clear_line_and_status_1(domain):
             assert port in process.stderr and process.stderr.count('\n') == 1
 
 
-@pytest.mark.parametrize('args', [['--port', 'x'], ['--port', '70000'], ['more']])
+@pytest.mark.parametrize(
+    'args',
+    [
+        *[['--port', 'x'], ['--port', '70000'], ['--port', '-1'], ['--port', ''], ['more']],
+        *[['--node', ''], ['--node', 'a b'], ['--node', '/'], ['--host', '']],
+    ],
+)
 def test_wrong_arguments_are_told_with_status_2(domain, args):
     with Process('web_view', *args) as process:
         assert process.wait() == 2
@@ -45,3 +51,12 @@ def test_help_names_every_option(domain):
     with Process('web_view', '--help') as process:
         assert process.wait() == 0
         assert all(option in process.stdout for option in ('--host', '--port', '--node'))
+
+
+@pytest.mark.parametrize(
+    'host', ['192.0.2.1', 'no.such.host.invalid', 'a b', 'ä' * 80, '[', '1.2.3']
+)
+def test_a_host_that_is_none_is_one_clear_line_and_status_1(domain, host):
+    with Process('web_view', '--port', '0', '--host', host) as process:
+        assert process.wait() == 1
+        assert f'cannot listen at {host}' in process.stderr and process.stderr.count('\n') == 1

@@ -5,7 +5,12 @@ import pytest
 from plain_messages import to_poses
 from rclpy.serialization import serialize_message
 
-from pool_sim_ros.web_view.frames import frame_positions, page_frame
+from pool_sim_ros.web_view.frames import (
+    are_collisions,
+    check_count,
+    frame_positions,
+    page_frame,
+)
 
 
 @pytest.mark.parametrize('frame_id', ['', 't', 'table', 'a/frame/of/its/own', 'é'])
@@ -32,3 +37,39 @@ def test_a_count_that_the_bytes_do_not_hold_is_refused():
     message[count + 3] = 0xFF
     with pytest.raises(ValueError, match='PoseArray'):
         page_frame(bytes(message))
+
+
+@pytest.mark.parametrize('number', [np.nan, np.inf, -np.inf])
+def test_a_ball_that_is_nowhere_is_refused(number):
+    positions = np.ones((3, 2))
+    positions[1, 1] = number
+    message = serialize_message(to_poses('table', 1, positions, [0.05] * 3))
+    with pytest.raises(ValueError, match='ball_poses: a position is not finite'):
+        page_frame(message)
+
+
+def test_a_frame_of_other_balls_is_refused():
+    frame = page_frame(serialize_message(to_poses('table', 1, np.ones((3, 2)), [0.05] * 3)))
+    check_count(frame, 3)
+    for balls in (2, 4):
+        with pytest.raises(ValueError, match=f'3 balls, where the table has {balls}'):
+            check_count(frame, balls)
+
+
+@pytest.mark.parametrize(
+    ('kind', 'a', 'b', 'good'),
+    [
+        (0, 0, 2, True),
+        (0, 2, 3, False),
+        (1, 2, 3, True),
+        (1, 3, 0, False),
+        (0, -1, 2, False),
+        (1, 0, -1, False),
+        (0, 0.5, 1, False),
+        (1, np.nan, 0, False),
+    ],
+)
+def test_collisions_name_balls_of_the_table(kind, a, b, good):
+    row = [0, 0.5, kind, a, b, 1.0, 0.5, 1.0, 0.0, 2.5]
+    assert are_collisions(np.array([row]), 3) == good
+    assert not are_collisions(np.array([row[:9]]), 3)

@@ -1,20 +1,28 @@
 """The server, over HTTP and websockets, and the command that starts it."""
 
 import asyncio
+import contextlib
+import os
 import re
 import socket
+import struct
+from pathlib import Path
+from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
 
-aiohttp = pytest.importorskip('aiohttp', reason="pip install 'pool_sim_ros[web]'")
+aiohttp = pytest.importorskip('aiohttp', reason='pip install aiohttp')
 
 from plain_messages import to_collisions, to_poses  # noqa: E402
 from site_harness import simulator, talk, web_view  # noqa: E402
+from waiting import PATIENCE, wait_until  # noqa: E402
 from yarl import URL  # noqa: E402
 
 from pool_sim_ros.physics import report_table, simulate  # noqa: E402
 from pool_sim_ros.ros import interface, messages  # noqa: E402
+from pool_sim_ros.web_view import server as module  # noqa: E402
+from pool_sim_ros.web_view.pages import Pages  # noqa: E402
 from pool_sim_ros.web_view.server import is_own_name  # noqa: E402
 
 TABLE = report_table()
@@ -245,3 +253,210 @@ def test_the_names_in_the_page_are_those_of_its_elements(alone):
         assert names
         for name in names:
             assert f'id="{name}"' in html, f'{script}.js looks for {name}'
+
+
+def ask(address, request, whole=True):
+    """Send bytes as they are; return the status of the answer, and all of it or its beginning."""
+    host, port = urlsplit(address).hostname, urlsplit(address).port
+    with socket.create_connection((host, port), timeout=PATIENCE) as connection:
+        connection.sendall(request)
+        answer = b''
+        while (whole or not answer) and (chunk := connection.recv(65536)):
+            answer += chunk
+    return int(answer.split(b' ', 2)[1]), answer
+
+
+def request(path=b'/', host=b'localhost', method=b'GET', more=b''):
+    return b'%s %s HTTP/1.1\r\nHost: %s\r\nConnection: close\r\n%s\r\n' % (method, path, host, more)
+
+
+HOSTS = [
+    *[b'[', b']', b'[::1', b'::1]', b'[]', b'[localhost]', b'localhost:x', b'@', b'a@b:c', b'\xff'],
+    *[
+        b'\xe2\x84\x80',
+        b'localhost\xff',
+        b'',
+        b' ',
+        b'a' * 6000,
+        b'[' * 100,
+        b'example.com',
+        b'%00',
+    ],
+]
+
+
+@pytest.mark.parametrize('host', HOSTS, ids=lambda host: repr(host[:30]))
+def test_a_host_that_is_none_of_ours_is_the_fault_of_who_asks(alone, host):
+    status, answer = ask(alone.address, request(host=host))
+    assert 400 <= status < 500, answer
+
+
+PATHS = [
+    *[
+        b'/' + b'a' * 6000,
+        b'/static/' + b'a' * 6000,
+        b'/static/' + b'a/' * 3000,
+        b'/' + b'%61' * 2000,
+    ],
+    *[
+        b'/static/main.js%00',
+        b'/static/%00',
+        b'/%ff',
+        b'/static/%ff',
+        b'/static/%2e%2e%2fserver.py',
+    ],
+    *[
+        b'/static/..%5cserver.py',
+        b'/static/.',
+        b'/static/..',
+        b'//[',
+        b'/static/main.js/x',
+        b'/\xff',
+    ],
+    *[b'/static/CON', b'/static/%e2%84%80', b'*', b'http://[/', b'http://[::1', b'/' + b'?' * 6000],
+]
+
+
+@pytest.mark.parametrize('path', PATHS, ids=lambda path: repr(path[:30]))
+def test_no_path_is_an_error_of_the_server(alone, path):
+    status, answer = ask(alone.address, request(path))
+    assert 400 <= status < 500 or path.startswith(b'/?'), answer
+
+
+@pytest.mark.parametrize(
+    'more',
+    [
+        b'Origin: http://[\r\n',
+        b'Origin: \xff\r\n',
+        b'Origin: http://localhost:99999\r\n',
+        b'Upgrade: websocket\r\n',
+        b'Sec-WebSocket-Version: x\r\n',
+        b'Content-Length: -1\r\n',
+        b'Content-Length: 10\r\n',
+        b'Transfer-Encoding: chunked\r\n',
+        b'Range: bytes=9-1\r\n',
+        b'If-Modified-Since: never\r\n',
+        b'Cookie: ' + b'a' * 9000 + b'\r\n',
+    ],
+    ids=lambda more: repr(more[:30]),
+)
+@pytest.mark.parametrize('path', [b'/', b'/socket'])
+def test_no_header_is_an_error_of_the_server(alone, path, more):
+    status, answer = ask(alone.address, request(path, more=more))
+    assert 200 <= status < 500, answer
+
+
+HANDSHAKE = {
+    b'Connection': b'Upgrade',
+    b'Upgrade': b'websocket',
+    b'Sec-WebSocket-Version': b'13',
+    b'Sec-WebSocket-Key': b'dGhlIHNhbXBsZSBub25jZQ==',
+    b'Sec-WebSocket-Protocol': b'chat',
+    b'Sec-WebSocket-Extensions': b'permessage-deflate',
+}
+
+
+@pytest.mark.parametrize('header', HANDSHAKE, ids=lambda header: header.decode())
+@pytest.mark.parametrize('value', [b'\xff', b'', b'[', b'\xc3\xa4', b'x' * 3000])
+def test_no_handshake_is_an_error_of_the_server(alone, header, value):
+    place = alone.address.removeprefix('http://').encode()
+    lines = {b'Host': place, b'Origin': b'http://' + place, **HANDSHAKE, header: value}
+    head = b''.join(b'%s: %s\r\n' % line for line in lines.items())
+    status, answer = ask(alone.address, b'GET /socket HTTP/1.1\r\n' + head + b'\r\n', whole=False)
+    assert status == 101 or 400 <= status < 500, answer
+
+
+def test_nonsense_does_not_fill_the_log(domain):
+    with web_view('--node', '/nobody') as site:
+        for nonsense in (b'\xff\xff\r\n\r\n', b'GET / HTTP/9\r\n\r\n', request(host=b'[')):
+            assert 400 <= ask(site.address, nonsense)[0] < 500
+        site.interrupt()
+        assert site.wait() == 0
+        assert site.stderr == ''
+
+
+@pytest.mark.parametrize('method', [b'POST', b'PUT', b'DELETE', b'OPTIONS', b'TRACE', b'NONSENSE'])
+def test_the_page_can_only_be_read(alone, method):
+    assert ask(alone.address, request(method=method))[0] in (400, 405)
+
+
+@pytest.mark.parametrize('path', ['/', '/nothing', '/static/main.js', '/static/nothing'])
+def test_every_answer_has_the_policy(alone, path):
+    _, headers, _ = get(alone.address, path)
+    policy = headers['Content-Security-Policy']
+    assert "default-src 'self'" in policy and 'unsafe' not in policy
+    assert "object-src 'none'" in policy and headers['X-Content-Type-Options'] == 'nosniff'
+
+
+class Bare:
+    """A view for servers that nobody plays on."""
+
+    def __init__(self):
+        self.pages = Pages()
+
+
+HALVES = {
+    'nothing': b'',
+    'half a line': b'GET / HT',
+    'half a head': b'GET / HTTP/1.1\r\nHost: localhost\r\n',
+    'half a second request': request().replace(b'close', b'keep-alive') + b'GET / HT',
+    'half a body': request(method=b'POST', more=b'Content-Length: 9\r\n') + b'1234',
+}
+
+
+@pytest.mark.parametrize('half', HALVES.values(), ids=HALVES)
+def test_half_a_request_is_not_waited_for_for_ever(monkeypatch, half):
+    for name in ('REQUEST_PATIENCE', 'IDLE_PATIENCE', 'LINGERING'):
+        monkeypatch.setattr(module, name, 0.3)
+
+    async def attempt():
+        server = module.Server(Bare(), '127.0.0.1', 0)
+        address = urlsplit(await server.start())
+        descriptors = len(os.listdir('/proc/self/fd'))
+        try:
+            for _ in range(5):
+                reader, writer = await asyncio.open_connection('127.0.0.1', address.port)
+                writer.write(half)
+                await asyncio.wait_for(reader.read(), PATIENCE)  # to its end
+                writer.close()
+                with contextlib.suppress(ConnectionError):
+                    await writer.wait_closed()
+            while len(os.listdir('/proc/self/fd')) > descriptors:
+                await asyncio.sleep(0.01)
+        finally:
+            await server.stop()
+
+    asyncio.run(asyncio.wait_for(attempt(), PATIENCE))
+
+
+def test_a_whole_request_and_an_open_page_are_not_cut_off(monkeypatch):
+    monkeypatch.setattr(module, 'REQUEST_PATIENCE', 0.1)
+    monkeypatch.setattr(module, 'IDLE_PATIENCE', 0.1)
+
+    async def attempt():
+        view = Bare()
+        server = module.Server(view, '127.0.0.1', 0)
+        address = await server.start()
+        try:
+            async with talk(address) as page:
+                await asyncio.sleep(0.5)  # five times its patience
+                view.pages.tell('state', 'still here')
+                assert await page.hear('state') == 'still here'
+        finally:
+            await server.stop()
+
+    asyncio.run(asyncio.wait_for(attempt(), PATIENCE))
+
+
+def test_connections_that_break_leave_no_descriptor(alone):
+    descriptors = Path(f'/proc/{alone.pid}/fd')
+    ask(alone.address, request())
+    before = len(list(descriptors.iterdir()))
+    host, port = urlsplit(alone.address).hostname, urlsplit(alone.address).port
+    for index in range(200):
+        with socket.create_connection((host, port)) as connection:
+            connection.sendall([b'', b'GET / HT', request(), request(b'/socket')][index % 4])
+            # With a reset instead of an orderly end.
+            linger = struct.pack('ii', 1, 0)
+            connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
+    wait_until(lambda: len(list(descriptors.iterdir())) <= before + 2, 'the descriptors')

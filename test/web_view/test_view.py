@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import threading
 
 import numpy as np
 import pytest
@@ -12,13 +13,25 @@ from waiting import PATIENCE
 from pool_sim_ros.me212 import published_final_positions
 from pool_sim_ros.physics import compile_kernels, report_table
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.simulator import table_to_json
+from pool_sim_ros.simulator import Phase, Response, table_to_json
 from pool_sim_ros.web_view import view as module
 from pool_sim_ros.web_view.bridge import NoAnswerError
 from pool_sim_ros.web_view.view import View
 
 TABLE = report_table()
 RESTING = {'paused': False, 'moving': False, 'computing': False, 'tick': 3}
+DONE = Response(
+    'x',
+    Phase.DONE,
+    shot=2,
+    velocity=(-4.0, 0.0),
+    integrator='time_slice',
+    t_start=1.0,
+    t_end=2.0,
+    final_positions={'C': [0.5, 0.5]},
+    final_positions_in={'C': [19.69, 19.69]},
+    as_printed=True,
+)
 
 
 class FakeBridge:
@@ -40,7 +53,7 @@ class FakeBridge:
         poses, self.poses = self.poses, None
         return poses
 
-    def request(self, **fields):
+    async def request(self, **fields):
         self.asked.append(fields)
 
     async def call(self, service, **fields):
@@ -73,8 +86,7 @@ class Site:
         self.view.on_state(messages.to_json_string(RESTING | changes))
 
     def respond(self, **changes):
-        response = {'phase': 'done', 'shot': 2, 'as_printed': True}
-        self.view.on_response(messages.to_json_string(response | changes))
+        self.view.on_response(messages.to_json_string(json.loads(DONE.to_json()) | changes))
 
     async def heard(self, page=None):
         """Return all that a page is to be sent, by kind."""
@@ -202,15 +214,79 @@ def test_any_other_response_comes_without(changes):
     assert ('result' in heard) == (changes.get('phase') is None)
 
 
-def test_collisions_are_shown_unless_they_are_not_what_they_should_be():
-    rows = np.arange(20.0).reshape(2, 10)
-
+def test_other_balls_than_the_printed_ones_are_not_compared_with_them():
     async def use(site):
-        site.view.on_collisions(to_collisions(rows))
-        site.view.on_collisions(to_collisions(np.full((1, 10), np.nan)))
+        with pytest.raises(ValueError, match='other balls'):
+            site.respond(final_positions_in={'C': [1.0, 1.0], 'Z': [2.0, 2.0]})
         return await site.heard()
 
-    assert on_site(use)['collisions'] == [rows.tolist()]
+    assert not {'response', 'result'} & set(on_site(use))
+
+
+@pytest.mark.parametrize(
+    'changes',
+    [
+        {'final_positions_in': {'C': [1.0]}},
+        {'final_positions_in': None},
+        {'velocity': 'x'},
+        {'phase': 'over'},
+        {'reason': ['x']},
+    ],
+)
+def test_a_response_that_a_page_could_not_show_does_not_reach_it(changes):
+    async def use(site):
+        with pytest.raises(ValueError):
+            site.respond(**changes)
+        return await site.heard()
+
+    assert not {'response', 'result'} & set(on_site(use))
+
+
+COLLISIONS = np.array(
+    [
+        [0, 0.5, 0, 0, 10, 1.0, 0.5, 1.0, 0.0, 2.5],
+        [1, 0.6, 1, 3, 2, 1.0, 0.0, 0.0, -1.0, 0.5],
+    ]
+)
+
+
+def changed(row, column, value):
+    rows = COLLISIONS.copy()
+    rows[row, column] = value
+    return rows
+
+
+def test_collisions_are_shown_once_the_table_is_known():
+    async def use(site):
+        site.view.on_collisions(to_collisions(COLLISIONS))
+        site.view.on_table(messages.to_string(table_to_json(TABLE)))
+        site.view.on_collisions(to_collisions(COLLISIONS))
+        return await site.heard(), site.bridge.complaints
+
+    heard, complaints = on_site(use)
+    assert heard['collisions'] == [COLLISIONS.tolist()] and complaints == []
+
+
+@pytest.mark.parametrize(
+    'rows',
+    [
+        changed(0, 1, np.nan),
+        changed(1, 9, np.inf),
+        changed(0, 3, 11),
+        changed(0, 4, 11),
+        changed(1, 3, -1),
+        changed(1, 3, 0.5),
+        changed(1, 4, -1),
+    ],
+)
+def test_what_are_no_collisions_is_left_out(rows):
+    async def use(site):
+        site.view.on_table(messages.to_string(table_to_json(TABLE)))
+        site.view.on_collisions(to_collisions(rows))
+        return await site.heard(), site.bridge.complaints
+
+    heard, complaints = on_site(use)
+    assert 'collisions' not in heard and len(complaints) == 1
 
 
 def test_a_simulator_that_falls_silent_is_gone_and_so_is_what_it_showed(monkeypatch):
@@ -262,6 +338,19 @@ def test_poses_that_are_none_are_left_out():
     assert 'frame' not in on_site(use)
 
 
+@pytest.mark.parametrize('places', [TABLE.positions[:10], TABLE.positions * np.nan])
+def test_poses_of_other_balls_or_of_none_are_left_out(places):
+    async def use(site):
+        await with_everything(site)
+        poses = to_poses('table', 2_000_000_000, places, [0.05] * len(places))
+        site.bridge.poses = serialize_message(poses)
+        while not site.bridge.complaints:
+            await asyncio.sleep(0.005)
+        return await site.heard()
+
+    assert 'frame' not in on_site(use)
+
+
 def test_who_aims_is_told_the_paths():
     compile_kernels(TABLE)
 
@@ -284,3 +373,46 @@ def test_while_balls_move_there_is_nothing_to_predict_from():
         return (await site.heard())['prediction']
 
     assert on_site(use) == [None]
+
+
+def test_pages_are_told_while_the_physics_is_compiled(monkeypatch):
+    compiled = threading.Event()
+    monkeypatch.setattr(module, 'compile_kernels', lambda table: compiled.wait(PATIENCE))
+    monkeypatch.setattr(module, 'COMPILE_NOTICE', 0.0)
+
+    async def use(site):
+        site.view.on_table(messages.to_string(table_to_json(TABLE)))
+        during, late = await site.heard(), await site.heard(site.view.pages.open())
+        compiled.set()
+        after = {}
+        while 'predicts' not in after:
+            after |= await site.heard()
+        return during, late, after
+
+    during, late, after = on_site(use)
+    assert during['compiling'] == late['compiling'] == [True]
+    assert 'predicts' not in during
+    assert after['compiling'] == [False] and after['predicts'] == [True]
+
+
+def test_a_physics_that_is_compiled_already_is_not_told():
+    compile_kernels(TABLE)
+    heard = on_site(with_everything)
+    assert True not in heard.get('compiling', [])
+
+
+def test_a_physics_that_cannot_be_compiled_is_not_waited_for(monkeypatch):
+    def fail(table):
+        raise RuntimeError('no compiler')
+
+    monkeypatch.setattr(module, 'compile_kernels', fail)
+
+    async def use(site):
+        site.view.on_table(messages.to_string(table_to_json(TABLE)))
+        heard = {}
+        while 'compiling' not in heard:
+            heard |= await site.heard()
+        return heard
+
+    heard = on_site(use)
+    assert heard['compiling'] == [False] and 'predicts' not in heard

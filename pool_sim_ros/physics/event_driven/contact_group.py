@@ -173,7 +173,12 @@ def keep_closing(group: ContactGroup, count: int) -> int:
     fastest = 0.0
     for c in range(count):
         fastest = max(fastest, group.contacts[c].closing)
-    slowest = V_MIN if fastest > V_MIN else CLOSING_ROUNDING
+    return keep_above(group, count, V_MIN if fastest > V_MIN else CLOSING_ROUNDING)
+
+
+@kernel
+def keep_above(group: ContactGroup, count: int, slowest: float) -> int:
+    """Keep the contacts that close faster than `slowest`, m/s; return how many."""
     kept = 0
     for c in range(count):
         if group.contacts[c].closing > slowest:

@@ -8,6 +8,7 @@ from pool_sim_ros.physics.event_driven.cell_grid import all_moving, has_few
 from pool_sim_ros.physics.event_driven.contact_group import (
     ContactGroup,
     gather,
+    keep_above,
     keep_closing,
     keep_those_in_contact,
 )
@@ -40,6 +41,7 @@ from pool_sim_ros.physics.tolerances import (
     LAST_ROUND,
     MAX_ROUNDS,
     PRESS_TOUCHING,
+    PRESSED_SPEED,
     TOUCHING,
     V_MIN,
 )
@@ -181,6 +183,9 @@ def gather_group(state: State, a: int, b: int, now: float) -> tuple[int, int, in
         rounds = max(rounds, rounds_of(state.balls[group.members[m]], now))
     if rounds <= MAX_ROUNDS:
         count = keep_closing(group, count)
+    elif rounds == MAX_ROUNDS + 1:
+        # What parts fast is not pressed; to stop it here would add energy.
+        count = keep_above(group, count, -PRESSED_SPEED)
     return count, keep_those_in_contact(group, count, members), rounds
 
 

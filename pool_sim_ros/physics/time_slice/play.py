@@ -25,6 +25,7 @@ from pool_sim_ros.physics.outcomes import (
     TOO_MANY_EVENTS,
     Ends,
     Shot,
+    ShotCancelled,
 )
 from pool_sim_ros.physics.runaway import most_energy
 from pool_sim_ros.physics.table import Table
@@ -35,6 +36,13 @@ from pool_sim_ros.physics.validation import is_bad
 FIRST_ROOM = 1024
 """Events for which a log has room at first."""
 
+SLICES_A_CALL = 200_000_000
+"""Slices, times the balls squared and 100, between two looks at whether a shot is cancelled: about
+0.1 s, where a call takes 0.2 ms."""
+
+FEWEST_SLICES_A_CALL = 100
+"""The same at the least: on a table of many balls a call must not cost more than its slices."""
+
 
 def play(
     table: Table,
@@ -42,11 +50,11 @@ def play(
     velocities: NDArray[np.float64],
     step: float,
     limits: tuple[float, int],
+    cancelled: Callable[[], bool] | None = None,
 ) -> Shot:
     """Play one shot in slices of `step` s; see `simulate`, which checks what it is given."""
-    return _play(
-        table, layout, table.positions, velocities, step, limits, new_log(FIRST_ROOM, FIRST_ROOM)
-    )
+    log = new_log(FIRST_ROOM, FIRST_ROOM)
+    return _play(table, layout, table.positions, velocities, step, limits, log, cancelled)
 
 
 def play_parts(
@@ -85,6 +93,7 @@ def _play(
     step: float,
     limits: tuple[float, int],
     log: Log,
+    cancelled: Callable[[], bool] | None = None,
 ) -> Shot:
     """Play one shot, and again where the log had too little room, unless it has none."""
     start = at_rest if layout is None or not len(layout) else layout
@@ -95,7 +104,7 @@ def _play(
     until, max_events = limits
     while True:
         state = new_state(table, start, velocities, step, log)
-        failed = run(state, last_slice(until, step), max_events)
+        failed = run_unless(cancelled, state, last_slice(until, step), max_events)
         events, segments, first_hit = log.counts.tolist()
         if len(log.events) == 0 or (events <= len(log.events) and segments <= len(log.segments)):
             break
@@ -157,6 +166,21 @@ def new_state(
     )
     log_start(state)
     return state
+
+
+def run_unless(
+    cancelled: Callable[[], bool] | None, state: Slices, last: int, max_events: int
+) -> int:
+    """Do as `run`, part by part where somebody may cancel the shot; raise ShotCancelled then."""
+    if cancelled is None:
+        return run(state, last, max_events)
+    part = max(SLICES_A_CALL // (len(state.balls) ** 2 + 100), FEWEST_SLICES_A_CALL)
+    while not cancelled():
+        end = min(int(state.clock[0]) + part, last)
+        failed: int = run(state, end, max_events)
+        if failed or end == last or not state.v.any():
+            return failed
+    raise ShotCancelled('the shot was cancelled')
 
 
 @kernel

@@ -3,10 +3,13 @@
 import { Aim } from './aim.js';
 import { Connection } from './connection.js';
 import { Painter, isOver } from './painter.js';
-import { $, addCollisions, say, showProblem, showReadings, showResult, showState } from './panel.js';
+import {
+  $, addCollisions, say, showNotice, showProblem, showReadings, showResult, showState,
+} from './panel.js';
 import { Timeline } from './timeline.js';
 
 const ADVICE_TIME = 6000; // ms
+const COMPUTE_TIME = 1000; // ms; a compiled shot takes less
 const seconds = () => performance.now() / 1000;
 
 const canvas = $('table');
@@ -17,6 +20,7 @@ const timeline = new Timeline();
 const page = {
   connected: false, simulator: null, state: null, table: null, places: null,
   flashes: [], prediction: null, struck: null, played: null, drawn: 0, painter, timeline,
+  compiling: false, waits: false,
 };
 window.page = page;
 
@@ -48,6 +52,7 @@ const connection = new Connection({
     asked = null;
     if (!open) {
       page.state = null;
+      page.compiling = false;
       timeline.clear();
     }
     showLink();
@@ -73,8 +78,10 @@ const heard = {
   state(state) {
     const rested = page.state?.moving && !state.moving;
     page.state = state;
+    watchComputing();
     if (rested) page.played = page.struck = page.prediction = null;
     if (!canPlay() && aim.active) aim.cancel();
+    if (!page.prediction) askForPrediction(); // there was nothing to predict from before
     showLink();
   },
   table(table) {
@@ -97,17 +104,23 @@ const heard = {
   result: (result) => showResult(result, page.table?.balls),
   problem: advise,
   predicts: askForPrediction, // from now on
+  compiling(compiling) {
+    page.compiling = compiling;
+    showLink();
+  },
   prediction(prediction) {
+    const answered = asked && sameVelocity({ velocity: asked }, aim.velocity);
     asked = null;
     page.prediction = prediction;
     page.dirty = true;
     if (!aim.active && page.struck && sameVelocity(prediction, page.struck)) page.played = prediction;
-    if (aim.active && !sameVelocity(prediction, aim.velocity)) askForPrediction();
+    if (aim.active && !answered) askForPrediction();
   },
 };
 
 let asked = null; // the velocity that a prediction was asked for and has not come
 let dismissal = 0;
+let patience = 0;
 
 function send(command) {
   if (!connection.send(command)) advise('The page is not connected to its server.');
@@ -126,6 +139,25 @@ function advise(text) {
   asked = null;
 }
 
+// A shot that is computed for long probably waits until the simulator has compiled its physics.
+function watchComputing() {
+  if (page.state?.computing) {
+    patience ||= setTimeout(() => { page.waits = true; showLink(); }, COMPUTE_TIME);
+    return;
+  }
+  clearTimeout(patience);
+  patience = 0;
+  page.waits = false;
+}
+
+function notice() {
+  const compiled = 'the physics is compiled; this takes about 15 s, on the first run only.';
+  if (page.state.computing && page.compiling) return `Your shot waits until ${compiled}`;
+  if (page.compiling) return `Shots, and the paths while you aim, wait until ${compiled}`;
+  if (page.waits) return 'The shot is being computed. The first one waits until the physics is compiled.';
+  return null;
+}
+
 function showAim() {
   if (document.activeElement !== $('direction')) $('direction').value = aim.direction.toFixed(1);
   if (document.activeElement !== $('strength')) $('strength').value = aim.speed.toFixed(2);
@@ -135,7 +167,8 @@ function showLink() {
   const { connected, simulator, state } = page;
   const lost = connected ? simulator?.problem : 'The page has lost its server, and keeps trying to reach it.';
   showProblem(lost);
-  showState(state, lost);
+  showState(state, lost, page.compiling);
+  showNotice(connected && state && !lost ? notice() : null);
   say('simulator', simulator?.name ?? '');
   const usable = Boolean(connected && state);
   for (const button of document.querySelectorAll('button')) button.disabled = !usable;

@@ -26,9 +26,14 @@ export function showProblem(text) {
   say('problem', text ?? '');
 }
 
-export function showState(state, problem) {
+export function showNotice(text) {
+  $('notice').hidden = !text;
+  say('notice', text ?? '');
+}
+
+export function showState(state, problem, compiling) {
   if (problem || !state) return say('state', problem ? 'no simulator' : 'waiting');
-  const doing = state.computing ? 'computing' : state.moving ? 'rolling' : 'at rest';
+  const doing = state.computing ? (compiling ? 'waiting' : 'computing') : state.moving ? 'rolling' : 'at rest';
   return say('state', state.paused ? `paused, ${doing}` : doing);
 }
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import sys
 from importlib.resources import files
 
 import naive
@@ -9,9 +10,10 @@ import numpy as np
 import pytest
 from tables import LAWS, random_table, random_velocity, report_shots, table_of
 
-from pool_sim_ros.physics import report_table, simulate
+from pool_sim_ros.physics import ShotCancelled, ShotTooLong, report_table, simulate
 from pool_sim_ros.physics.time_slice.play import last_slice
 
+play_module = sys.modules['pool_sim_ros.physics.time_slice.play']  # its room exports `play`
 PUBLISHED = files('pool_sim_ros.me212') / 'published_final_positions.csv'
 
 
@@ -154,3 +156,41 @@ def test_a_limit_of_events_that_a_cut_shot_keeps():
     part = simulate(table, (-4.0, 0.0), until=cut, **options)
     again = simulate(table, (-4.0, 0.0), until=cut, max_events=len(part.events), **options)
     assert again.events.tobytes() == part.events.tobytes()
+
+
+@pytest.mark.parametrize('part', [1, 7, 1000])
+def test_a_shot_in_parts_is_the_same_shot(monkeypatch, part):
+    table, velocity = report_table(), report_shots()[0]
+    monkeypatch.setattr(play_module, 'SLICES_A_CALL', part * (len(table.balls) ** 2 + 100))
+    monkeypatch.setattr(play_module, 'FEWEST_SLICES_A_CALL', 1)
+    asked = []
+    for until in (None, 0.5):
+        options = dict(integrator='time_slice', time_slice=1e-4, until=until)
+        whole = simulate(table, velocity, **options)
+        parted = simulate(table, velocity, **options, cancelled=lambda: asked.append(1))
+        assert_same_bits(parted.final_positions, whole.final_positions)
+        assert_same_bits(parted.final_velocities, whole.final_velocities)
+        assert (parted.duration, parted.complete) == (whole.duration, whole.complete)
+        assert parted.events.tobytes() == whole.events.tobytes()
+        assert parted.segments.tobytes() == whole.segments.tobytes()
+    assert len(asked) >= 2e4 / part
+
+
+def test_a_shot_that_fails_in_parts_fails_as_a_whole_does(monkeypatch):
+    monkeypatch.setattr(play_module, 'SLICES_A_CALL', 1000)
+    for cancelled in (None, lambda: False):
+        with pytest.raises(ShotTooLong):
+            simulate(
+                report_table(), (-4.0, 0.0), integrator='time_slice', time_slice=1e-4,
+                max_events=5, cancelled=cancelled,
+            )  # fmt: skip
+
+
+def test_a_cancelled_shot_ends_at_once():
+    looks = iter([False, False, True])
+    nothing_slows = dataclasses.replace(report_table(), mu_ball_surface=1e-4)
+    with pytest.raises(ShotCancelled):
+        simulate(
+            nothing_slows, (-4.0, 0.0), integrator='time_slice', until=1e6,
+            cancelled=lambda: next(looks),
+        )  # fmt: skip
