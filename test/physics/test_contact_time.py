@@ -7,13 +7,15 @@ import numpy as np
 import oracle_roots
 import pytest
 from mpmath import mp, mpf
-from pool_sim_ros.physics.event_driven.contact_time import (
+from numba import njit
+
+from pool_sim_ros.physics.contact_time import (
+    RelativeMotion,
+    after,
     gap_from_below,
     stays_positive,
     time_to_moving_ball,
 )
-
-from pool_sim_ros.physics.motion import RelativeMotion
 
 A = 0.980665
 
@@ -175,3 +177,32 @@ def test_what_is_said_to_stay_apart_never_touches(horizon):
             assert np.hypot(*path.T).min() > touch
             assert time_to_moving_ball(motion, touch, horizon) == math.inf
     assert said > (0 if horizon == math.inf else 100)
+
+
+@njit
+def later(motion, t):
+    return after(motion, t)
+
+
+def test_later_it_is_where_its_parabola_leads():
+    rng = np.random.default_rng(1)
+    for _ in range(200):
+        place, velocity, acceleration = rng.normal(size=(3, 2))
+        t = rng.uniform(0.0, 3.0)
+        found = later(RelativeMotion(*place, *velocity, *acceleration), t)
+        np.testing.assert_allclose(found[:2], place + velocity * t + acceleration * t**2 / 2)
+        np.testing.assert_allclose(found[2:4], velocity + acceleration * t, atol=1e-14)
+        assert found[4:] == tuple(acceleration)
+
+
+def test_two_steps_are_one():
+    rng = np.random.default_rng(2)
+    for _ in range(200):
+        motion = RelativeMotion(*rng.normal(size=6))
+        s, t = rng.uniform(0.0, 2.0, 2)
+        np.testing.assert_allclose(later(later(motion, s), t), later(motion, s + t), atol=1e-12)
+
+
+def test_no_time_changes_nothing():
+    motion = RelativeMotion(1.0, -2.0, 3.0, -4.0, 5.0, -6.0)
+    assert later(motion, 0.0) == motion
