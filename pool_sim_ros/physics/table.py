@@ -17,7 +17,7 @@ from pool_sim_ros.physics.boundary import Rectangle
 from pool_sim_ros.physics.cushions import Cushions
 from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
 from pool_sim_ros.physics.log import SEGMENT, SPIN_SEGMENT
-from pool_sim_ros.physics.motion import BallTable, DiscTable, ball, disc
+from pool_sim_ros.physics.motion import BallTable, DiscTable, ball_record, disc_record
 from pool_sim_ros.physics.validation import check_layout, number
 
 Motion = Literal['disc', 'ball']
@@ -241,8 +241,10 @@ class Table:
         """Return the kernels' records of the balls at rest at (n, 2) positions, m."""
         if self.motion == 'ball':
             boundary = self.for_kernels.boundary
-            return ball.balls_at_rest(positions, self.radii, self.masses, self.is_cue, boundary)
-        return disc.balls_at_rest(positions, self.radii, self.masses, self.is_cue)
+            return ball_record.balls_at_rest(
+                positions, self.radii, self.masses, self.is_cue, boundary
+            )
+        return disc_record.balls_at_rest(positions, self.radii, self.masses, self.is_cue)
 
 
 def _read_only(values: Sequence[object], dtype: type = float) -> NDArray[Any]:

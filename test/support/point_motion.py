@@ -9,9 +9,11 @@ import numpy as np
 
 from pool_sim_ros.physics import motion as seam
 from pool_sim_ros.physics.boundary import distance_to_cushions
+from pool_sim_ros.physics.contacts import laws
+from pool_sim_ros.physics.event_driven import group_friction, inelastic_collapse
 from pool_sim_ros.physics.jit import register
 from pool_sim_ros.physics.log import STOP
-from pool_sim_ros.physics.motion import MOVES, RESTS, RelativeMotion
+from pool_sim_ros.physics.motion import MOVES, RESTS, DiscTable, RelativeMotion
 
 
 class PointTable(NamedTuple):
@@ -136,6 +138,49 @@ def _relative(path, table, other):
     )
 
 
+def _advance(ball, table, now):
+    ball.x += ball.ux * (now - ball.since)
+    ball.y += ball.uy * (now - ball.since)
+    ball.since = now
+    return ball.ux, ball.uy
+
+
+def _has_phases(table):
+    return False
+
+
+def _rest_begins(ball, table):
+    return ball.since
+
+
+def _give_spin(ball, table, wx, wy, wz):
+    pass
+
+
+def _log_spin(segment, ball, table):
+    pass
+
+
+def _lie_at(ball, table, x, y):
+    ball.x, ball.y = x, y
+
+
+def _in_play(ball, table):
+    return True
+
+
+def _catch(ball, table, pocket, now):
+    pass
+
+
+def _pocket_of(ball, table):
+    return -1
+
+
+def _shown_at(ball, table):
+    return ball.x, ball.y
+
+
 IMPLEMENTATIONS = {
     seam.position_at: _position,
     seam.velocity_at: _velocity,
@@ -151,7 +196,27 @@ IMPLEMENTATIONS = {
     seam.first_resting_of: _first_resting_of,
     seam.time_to_resting_ball: _resting_ball,
     seam.relative_motion: _relative,
+    seam.advance: _advance,
+    seam.has_phases: _has_phases,
+    seam.rest_begins: _rest_begins,
+    seam.give_spin: _give_spin,
+    seam.log_spin: _log_spin,
+    seam.lie_at: _lie_at,
+    seam.in_play: _in_play,
+    seam.catch: _catch,
+    seam.pocket_of: _pocket_of,
+    seam.shown_at: _shown_at,
 }
+
+AS_DISCS = (
+    laws.collide_pair,
+    laws.bounce,
+    inelastic_collapse.separation_speed,
+    group_friction.rub_group,
+)
+"""In contact points do as discs do."""
 
 for _choice, _implementation in IMPLEMENTATIONS.items():
     register(_choice, PointTable, _implementation)
+for _choice in AS_DISCS:
+    register(_choice, PointTable, _choice.implementations[DiscTable])

@@ -95,6 +95,40 @@ def _outside(boundary, x, y, radius, tolerance):
     return False
 
 
+def _time(boundary, path, radius):
+    """Only discs move here, and they ask for a distance."""
+    return np.inf, PHASE_END
+
+
+def _nose_radius(boundary, cushion):
+    return 0.0
+
+
+def _put_on(boundary, cushion, x, y, radius):
+    gap = _gap(boundary, cushion, x, y, radius)
+    return x + gap * boundary.nx[cushion], y + gap * boundary.ny[cushion]
+
+
+def _is_pocket(boundary, partner):
+    return False
+
+
+def _no_pocket(boundary, partner):
+    return -1
+
+
+def _pocket_at(boundary, x, y):
+    return -1
+
+
+def _pocket_centre(boundary, pocket):
+    return np.nan, np.nan
+
+
+def _to_mouths(boundary, x, y):
+    return np.inf
+
+
 IMPLEMENTATIONS = {
     seam.n_cushions: _n,
     seam.cushion_gap: _gap,
@@ -104,6 +138,14 @@ IMPLEMENTATIONS = {
     seam.from_cushion_axes: _from_axes,
     seam.touches_cushion: _touches,
     seam.is_outside: _outside,
+    seam.time_to_cushions: _time,
+    seam.nose_radius: _nose_radius,
+    seam.put_on_cushion: _put_on,
+    seam.is_pocket: _is_pocket,
+    seam.pocket_of_partner: _no_pocket,
+    seam.pocket_at: _pocket_at,
+    seam.pocket_centre: _pocket_centre,
+    seam.distance_to_mouths: _to_mouths,
 }
 
 for _choice, _implementation in IMPLEMENTATIONS.items():

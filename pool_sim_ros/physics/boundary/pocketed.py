@@ -97,7 +97,9 @@ def cushion_gap(
         nose = boundary.noses[cushion - k]
         return np.hypot(x - nose[0], y - nose[1]) - nose[2] - radius
     segment = boundary.segments[cushion]
-    return height_above(segment, x, y) - radius if faces(segment, x, y) else np.inf
+    height = height_above(segment, x, y)
+    # What is far behind it is before another cushion.
+    return height - radius if height > -radius and faces(segment, x, y) else np.inf
 
 
 def cushion_normal(
@@ -263,7 +265,7 @@ def touches_cushion(boundary: PocketedBoundary, x: float, y: float, reach: float
         return False
     for k in range(len(boundary.segments)):
         segment = boundary.segments[k]
-        if k != but and height_above(segment, x, y) <= reach and faces(segment, x, y):
+        if k != but and abs(height_above(segment, x, y)) <= reach and faces(segment, x, y):
             return True
     for k in range(len(boundary.noses)):
         nose = boundary.noses[k]

@@ -75,7 +75,7 @@ def run(state: State, until: float, most: float, max_events: int) -> int:
             predict(state, a, NONE, now)
         elif b == PHASE_END:
             stop(state, a, now)
-        elif b < 0 and is_pocket(state.table.boundary, b):
+        elif b < 0 and is_pocket(state.table.boundary, int(b)):
             pocket(state, a, b, now)
         else:
             predict_after(state, collide(state, a, b, now), now)

@@ -7,19 +7,17 @@ and in place. The functions are the implementations of those in `motion`.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.boundary import (
-    pocket_at,
-    pocket_centre,
-    time_to_cushions,
-)
+from pool_sim_ros.physics.boundary import pocket_at, pocket_centre, time_to_cushions
 from pool_sim_ros.physics.contact_time import RelativeMotion, first_root
 from pool_sim_ros.physics.jit import Record, inlined
 from pool_sim_ros.physics.log import ROLL, STOP
+from pool_sim_ros.physics.motion.ball_phases import begin_phase, begin_to_roll, spin_left
+from pool_sim_ros.physics.motion.ball_record import BallTable
 from pool_sim_ros.physics.motion.curved_path import (
     CurvedPath,
     first_in_rows,
@@ -34,69 +32,7 @@ from pool_sim_ros.physics.motion.straight_path import (
     first_on_path,
     time_to_cover,
 )
-from pool_sim_ros.physics.tolerances import LONGEST, SHORTEST_PHASE, SLIP_ROUNDING
-
-BALL = np.dtype(
-    [
-        # What others look at when they look for whom they meet: the first cache line.
-        ('x', 'f8'),  # position at `since`, m; infinite for a ball in a pocket
-        ('y', 'f8'),
-        ('vx', 'f8'),  # velocity at `since`, m/s
-        ('vy', 'f8'),
-        ('ax', 'f8'),  # m/s^2
-        ('ay', 'f8'),
-        ('since', 'f8'),  # when this motion began, s
-        ('changes', 'i4'),  # how often its motion has changed
-        ('phase', 'i2'),
-        ('is_cue', 'i2'),
-        # The second one.
-        ('next_contact_time', 'f8'),  # when its next contact or end of phase is due, s; inf: none
-        ('cell_exit_time', 'f8'),  # when it leaves its cell, s; inf for never
-        ('phase_end', 'f8'),  # when it stops to slide, or to roll, s
-        ('radius', 'f8'),
-        ('inverse_mass', 'f8'),
-        ('last_contact_time', 'f8'),  # s
-        ('partner', 'i4'),  # what it meets then: a ball, or as in `boundary`
-        ('partner_changes', 'i4'),  # the partner's `changes` when this was found
-        ('cell_x', 'i4'),
-        ('cell_y', 'i4'),
-        # The third one.
-        ('wx', 'f8'),  # angular velocity at `since`, rad/s
-        ('wy', 'f8'),
-        ('wz', 'f8'),
-        ('previous', 'i4'),  # the ball before it in its cell; -1 for none
-        ('pocket', 'i4'),  # in which it is; -1 for none
-        ('repeats', 'i2'),  # weak contacts in quick succession, up to now
-        ('presses', 'i2'),  # the same over a while
-        ('rounds', 'i4'),  # contacts in the rattle that `last_contact_time` belongs to
-    ],
-    align=True,
-)
-"""The state of one ball in the event-driven engine: three cache lines."""
-
-
-class BallTable(NamedTuple):
-    """What the kernels know of a table on which balls spin; SI units."""
-
-    boundary: Any
-    slide: float  # deceleration of a ball that slides, m/s^2
-    roll: float  # of one that rolls, m/s^2
-    spin: float  # angular deceleration of the spin about the vertical axis, rad/s^2
-    radius: float  # of every ball, m
-    rubbing: Any  # a BallLaw
-    edge: Any  # an EdgeLaw
-    e_cue_ball: float
-    e_ball_ball: float
-    e_ball_cushion: float
-    coulomb: bool  # friction here never adds energy: no shot runs away
-    cue_ball: int  # its number; -1 for none
-
-
-@inlined
-def spin_left(wz: float, table: Any, elapsed: float) -> float:
-    """Return the spin about the vertical axis `elapsed` s later, rad/s."""
-    left = max(abs(wz) - table.spin * elapsed, 0.0)
-    return left if wz > 0.0 else -left
+from pool_sim_ros.physics.tolerances import LONGEST
 
 
 def position_at(ball: Record, table: BallTable, t: float) -> tuple[float, float]:
@@ -149,37 +85,6 @@ def set_off(ball: Record, table: BallTable, vx: float, vy: float) -> None:
     ball.vx, ball.vy = vx, vy
     ball.changes += 1
     begin_phase(ball, table)
-
-
-@inlined
-def begin_phase(ball: Record, table: Any) -> None:
-    """Choose the phase that goes with the velocity and the spin of a ball."""
-    radius = table.radius
-    slip_x, slip_y = ball.vx - radius * ball.wy, ball.vy + radius * ball.wx
-    slip = np.sqrt(slip_x * slip_x + slip_y * slip_y)
-    shortest = SHORTEST_PHASE * max(ball.since, 1.0)
-    scale = abs(ball.vx) + abs(ball.vy) + radius * (abs(ball.wx) + abs(ball.wy))
-    if slip > SLIP_ROUNDING * scale and 2.0 * slip > 7.0 * table.slide * shortest:
-        ball.phase = SLIDES
-        ball.ax, ball.ay = -table.slide * (slip_x / slip), -table.slide * (slip_y / slip)
-        ball.phase_end = ball.since + 2.0 * slip / (7.0 * table.slide)
-        return
-    begin_to_roll(ball, table)
-
-
-@inlined
-def begin_to_roll(ball: Record, table: Any) -> None:
-    """Let a ball roll, whatever slip rounding has left; or rest, if it hardly moves."""
-    speed = np.sqrt(ball.vx * ball.vx + ball.vy * ball.vy)
-    if speed > table.roll * SHORTEST_PHASE * max(ball.since, 1.0) and speed > 0.0:
-        ball.phase = ROLLS
-        ball.ax, ball.ay = -table.roll * (ball.vx / speed), -table.roll * (ball.vy / speed)
-        ball.wx, ball.wy = -ball.vy / table.radius, ball.vx / table.radius
-        ball.phase_end = ball.since + speed / table.roll
-        return
-    ball.phase = RESTS
-    ball.vx, ball.vy, ball.ax, ball.ay, ball.wx, ball.wy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    ball.phase_end = np.inf
 
 
 def phase_end_time(ball: Record, table: BallTable) -> float:
@@ -386,25 +291,3 @@ def log_spin(segment: Record, ball: Record, table: BallTable) -> None:
         segment.turn_x, segment.turn_y = -ball.ay / table.radius, ball.ax / table.radius
     else:
         segment.turn_x, segment.turn_y = 0.0, 0.0
-
-
-def balls_at_rest(
-    positions: NDArray[np.float64],
-    radii: NDArray[np.float64],
-    masses: NDArray[np.float64],
-    is_cue: NDArray[np.bool_],
-    boundary: Any,
-) -> NDArray[np.void]:
-    """Return the records, (n,) of BALL, of balls at rest at (n, 2) positions in m, (n,) kg."""
-    records = np.zeros(len(positions), BALL)
-    records['x'], records['y'] = positions.T
-    records['radius'], records['inverse_mass'] = radii, 1.0 / masses
-    records['is_cue'] = is_cue
-    records['phase_end'] = np.inf
-    records['next_contact_time'] = records['cell_exit_time'] = np.inf
-    records['last_contact_time'] = -np.inf
-    for record in records:
-        record['pocket'] = pocket_at(boundary, record['x'], record['y'])
-        if record['pocket'] >= 0:
-            record['x'] = record['y'] = np.inf
-    return records

@@ -6,15 +6,16 @@ The functions are the implementations of those in `motion`, which say what each 
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.boundary import PHASE_END, Rectangle, distance_to_cushions
+from pool_sim_ros.physics.boundary import PHASE_END, distance_to_cushions
 from pool_sim_ros.physics.contact_time import RelativeMotion
 from pool_sim_ros.physics.jit import Record, inlined
 from pool_sim_ros.physics.log import STOP
+from pool_sim_ros.physics.motion.disc_record import DiscTable
 from pool_sim_ros.physics.motion.phase import MOVES, RESTS
 from pool_sim_ros.physics.motion.straight_path import (
     StraightPath,
@@ -23,51 +24,6 @@ from pool_sim_ros.physics.motion.straight_path import (
     first_on_path,
     time_to_cover,
 )
-
-DISC = np.dtype(
-    [
-        # What others look at when they look for whom they meet: the first cache line.
-        ('x', 'f8'),  # position at `since`, m
-        ('y', 'f8'),
-        ('ux', 'f8'),  # unit direction of motion; zero at rest
-        ('uy', 'f8'),
-        ('speed', 'f8'),  # at `since`, m/s; zero at rest
-        ('since', 'f8'),  # when this motion began, s
-        ('radius', 'f8'),
-        ('changes', 'i4'),  # how often its motion has changed
-        ('phase', 'i2'),
-        ('is_cue', 'i2'),
-        # The second one.
-        ('next_contact_time', 'f8'),  # when its next contact or end of phase is due, s; inf: none
-        ('cell_exit_time', 'f8'),  # when it leaves its cell, s; inf for never
-        ('inverse_mass', 'f8'),
-        ('last_contact_time', 'f8'),  # s
-        ('partner', 'i4'),  # what it meets then: a ball, or as in `boundary`
-        ('partner_changes', 'i4'),  # the partner's `changes` when this was found
-        ('cell_x', 'i4'),
-        ('cell_y', 'i4'),
-        ('previous', 'i4'),  # the ball before it in its cell; -1 for none
-        ('repeats', 'i2'),  # weak contacts in quick succession, up to now
-        ('presses', 'i2'),  # the same over a while: something presses it to others
-        ('rounds', 'i8'),  # contacts in the rattle that `last_contact_time` belongs to
-    ],
-    align=True,
-)
-"""The state of one disc in the event-driven engine: two cache lines."""
-
-
-class DiscTable(NamedTuple):
-    """What the kernels know of a table on which discs slide; SI units."""
-
-    boundary: Rectangle
-    deceleration: float
-    mu_ball_ball: float
-    mu_ball_cushion: float
-    e_cue_ball: float
-    e_ball_ball: float
-    e_ball_cushion: float
-    coulomb: bool  # the law of friction between balls; otherwise `report`
-    cue_ball: int  # its number; -1 for none
 
 
 @inlined
@@ -292,19 +248,3 @@ def pocket_of(ball: Record, table: DiscTable) -> int:
 def shown_at(ball: Record, table: DiscTable) -> tuple[float, float]:
     """Return where a disc is when its motion begins, m."""
     return ball.x, ball.y
-
-
-def balls_at_rest(
-    positions: NDArray[np.float64],
-    radii: NDArray[np.float64],
-    masses: NDArray[np.float64],
-    is_cue: NDArray[np.bool_],
-) -> NDArray[np.void]:
-    """Return the records, (n,) of DISC, of balls at rest at (n, 2) positions in m, (n,) kg."""
-    records = np.zeros(len(positions), DISC)
-    records['x'], records['y'] = positions.T
-    records['radius'], records['inverse_mass'] = radii, 1.0 / masses
-    records['is_cue'] = is_cue
-    records['next_contact_time'] = records['cell_exit_time'] = np.inf
-    records['last_contact_time'] = -np.inf
-    return records

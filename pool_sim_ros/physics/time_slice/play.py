@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from pool_sim_ros.physics.log import (
     log_event,
     new_log,
 )
+from pool_sim_ros.physics.motion import DiscTable
 from pool_sim_ros.physics.outcomes import (
     BAD_LAYOUT,
     NO_POCKETED,
@@ -148,7 +150,8 @@ def new_state(
     v[: len(velocities)] = velocities
     log.counts[:] = 0, 0, -1
     state = Slices(
-        table=table.for_kernels,
+        # `shot_inputs` lets no other tables through.
+        table=cast(DiscTable, table.for_kernels),
         balls=table.balls_at_rest,
         mass=table.masses,
         x=np.array(positions),

@@ -7,13 +7,16 @@ import numpy as np
 import oracle_roots
 import pytest
 from mpmath import mp, mpf
-from pool_sim_ros.physics.event_driven.contact_time import (
+from numba import njit
+
+from pool_sim_ros.physics.contact_time import (
+    RelativeMotion,
+    after,
     gap_from_below,
     stays_positive,
+    time_to_line,
     time_to_moving_ball,
 )
-
-from pool_sim_ros.physics.motion import RelativeMotion
 
 A = 0.980665
 
@@ -175,3 +178,114 @@ def test_what_is_said_to_stay_apart_never_touches(horizon):
             assert np.hypot(*path.T).min() > touch
             assert time_to_moving_ball(motion, touch, horizon) == math.inf
     assert said > (0 if horizon == math.inf else 100)
+
+
+@njit
+def later(motion, t):
+    return after(motion, t)
+
+
+def test_later_it_is_where_its_parabola_leads():
+    rng = np.random.default_rng(1)
+    for _ in range(200):
+        place, velocity, acceleration = rng.normal(size=(3, 2))
+        t = rng.uniform(0.0, 3.0)
+        found = later(RelativeMotion(*place, *velocity, *acceleration), t)
+        np.testing.assert_allclose(found[:2], place + velocity * t + acceleration * t**2 / 2)
+        np.testing.assert_allclose(found[2:4], velocity + acceleration * t, atol=1e-14)
+        assert found[4:] == tuple(acceleration)
+
+
+def test_two_steps_are_one():
+    rng = np.random.default_rng(2)
+    for _ in range(200):
+        motion = RelativeMotion(*rng.normal(size=6))
+        s, t = rng.uniform(0.0, 2.0, 2)
+        np.testing.assert_allclose(later(later(motion, s), t), later(motion, s + t), atol=1e-12)
+
+
+def test_no_time_changes_nothing():
+    motion = RelativeMotion(1.0, -2.0, 3.0, -4.0, 5.0, -6.0)
+    assert later(motion, 0.0) == motion
+
+
+def search_line(gap, closing, pressing, lasts, steps=20_001):
+    """Return when a gap first turns negative, from a fine search; None where that is not clear."""
+    times = np.linspace(0.0, lasts, steps)
+    gaps = gap - closing * times - 0.5 * pressing * times**2
+    low_points = gaps[1:-1][(gaps[1:-1] <= gaps[:-2]) & (gaps[1:-1] <= gaps[2:])]
+    if np.abs(low_points).min(initial=1.0) < 1e-6 or abs(gaps[-1]) < 1e-6:
+        return None
+    turns = np.flatnonzero((gaps[:-1] >= 0.0) & (gaps[1:] < 0.0))
+    if not len(turns):
+        return math.inf
+    low, high = times[turns[0]], times[turns[0] + 1]
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if gap - closing * middle - 0.5 * pressing * middle**2 < 0.0:
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def test_the_time_to_a_line_equals_a_fine_search():
+    rng = np.random.default_rng(41)
+    met = missed = 0
+    for _ in range(1000):
+        gap, closing = rng.choice([rng.uniform(0.0, 0.5), -0.01, 0.001]), rng.normal()
+        pressing, lasts = rng.choice([rng.normal(0.0, 2.0), 0.0]), rng.uniform(0.1, 3.0)
+        expected = search_line(gap, closing, pressing, lasts)
+        if expected is None:
+            continue
+        found = time_to_line(gap, closing, pressing, lasts)
+        assert found == pytest.approx(expected, rel=1e-9), (gap, closing, pressing, lasts)
+        met += found < math.inf
+        missed += found == math.inf
+    assert met > 300 and missed > 200
+
+
+@pytest.mark.parametrize(
+    ('gap', 'closing', 'pressing', 'lasts', 'expected'),
+    [
+        # It touches, and closes: now, whatever is to come.
+        (0.0, 1.0, 0.0, math.inf, 0.0),
+        (0.0, 1e-300, 0.0, math.inf, 0.0),
+        (0.0, 1.0, -5.0, 1.0, 0.0),
+        (0.0, 1.0, 5.0, 1.0, 0.0),
+        (-9e-10, 1.0, 0.0, 1.0, 0.0),
+        # It touches, and does not close.
+        (0.0, 0.0, 0.0, math.inf, math.inf),
+        (0.0, -0.0, -0.0, math.inf, math.inf),
+        (0.0, -1.0, 0.0, math.inf, math.inf),
+        (0.0, -1.0, -1.0, 5.0, math.inf),
+        (-9e-10, -1.0, 0.0, 5.0, math.inf),
+        # It moves along, and is pressed: truly, or by rounding.
+        (0.0, 0.0, 1.0, 1.0, 0.0),
+        (-9e-10, 0.0, 1.0, 1.0, 0.0),
+        (0.0, 0.0, 1e-13, 1.0, math.inf),
+        (0.0, -1e-17, 2e-16, 3.0, math.inf),
+        (0.0, 0.0, 1.0, 1e-7, math.inf),
+        # It leaves and comes back, if there is time.
+        (0.0, -1.0, 2.0, 1.1, 1.0),
+        (0.0, -1.0, 2.0, 1.0, math.inf),
+        (0.125, 0.0, 1.0, 0.51, 0.5),
+        (0.125, 0.0, 1.0, 0.49, math.inf),
+        # Beyond the line it touches nothing, until it has come out.
+        (-0.01, 1.0, 0.0, math.inf, math.inf),
+        (-0.01, 1.0, 3.0, 10.0, math.inf),
+        (-0.01, -1.0, 0.0, math.inf, math.inf),
+        (-0.01, -0.01, 3.0, 10.0, math.inf),
+        (-0.01, -1.0, 2.0, 10.0, 0.5 + math.sqrt(0.24)),
+        (-0.01, -1.0, 2.0, 0.9, math.inf),
+        # Not before the end.
+        (0.5, 1.0, 0.0, 0.5, math.inf),
+        (0.5, 1.0, 0.0, math.inf, 0.5),
+        (0.5, 1.0, -2.0, 5.0, math.inf),
+        (0.0, 1.0, 0.0, 0.0, math.inf),
+        (0.5, 0.0, 0.0, math.inf, math.inf),
+    ],
+)
+def test_the_time_to_a_line_in_nasty_cases(gap, closing, pressing, lasts, expected):
+    found = time_to_line(gap, closing, pressing, lasts)
+    assert found == pytest.approx(expected, rel=1e-14)

@@ -17,6 +17,7 @@ from pool_sim_ros.physics import motion, report_table, simulate
 from pool_sim_ros.physics.motion import (
     MOVES,
     RESTS,
+    BallTable,
     DiscTable,
     acceleration,
     path_from,
@@ -65,11 +66,11 @@ def assert_plays_as_a_disc(found, table, velocities, until):
     return len(found.events)
 
 
-def test_every_function_has_an_implementation_for_the_disc():
+def test_every_function_has_an_implementation_for_each_motion():
     declared = chosen_functions(motion)
-    assert len(declared) == 14
+    assert len(declared) == 24
     for name, function in declared.items():
-        assert DiscTable in function.implementations, name
+        assert {BallTable, DiscTable} <= set(function.implementations), name
 
 
 def test_nothing_is_asked_of_a_motion_but_what_it_registers():

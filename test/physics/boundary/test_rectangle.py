@@ -57,7 +57,7 @@ def gap_of(cushion, x, y, radius):
 
 def test_there_is_one_implementation_of_each_function():
     declared = chosen_functions(boundary)
-    assert len(declared) == 8
+    assert len(declared) == 16
     for function in declared.values():
         assert list(function.implementations).count(Rectangle) == 1
 
