@@ -15,6 +15,7 @@ from pool_sim_ros.physics.law_names import (
     number_of,
 )
 from pool_sim_ros.physics.motion import BallTable
+from pool_sim_ros.physics.tolerances import MAX_FRICTION, MIN_DECELERATION
 from pool_sim_ros.physics.validation import number
 
 if TYPE_CHECKING:
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
 
 COEFFICIENTS = ('mu_slide', 'mu_roll', 'mu_spin', 'nose_height')
 """Fields that a table needs on which balls spin, and that no other has."""
-
-MAX_FRICTION = 1e3
-MIN_DECELERATION = 1e-9
 
 
 def checked_fields(table: Table) -> dict[str, Any]:

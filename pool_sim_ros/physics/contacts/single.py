@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pool_sim_ros.physics.balls import MASSES, RADII
 from pool_sim_ros.physics.contacts.edge import EdgeLaw, collide_with_edge
 from pool_sim_ros.physics.contacts.spheres import BallLaw, collide_spheres
 from pool_sim_ros.physics.law_names import (
@@ -17,9 +18,7 @@ from pool_sim_ros.physics.law_names import (
     FrictionBound,
     number_of,
 )
-from pool_sim_ros.physics.balls import MASSES, RADII
-from pool_sim_ros.physics.table import MAX_FRICTION
-from pool_sim_ros.physics.tolerances import MAX_SPEED, MAX_SPIN
+from pool_sim_ros.physics.tolerances import MAX_FRICTION, MAX_SPEED, MAX_SPIN
 from pool_sim_ros.physics.validation import number, numbers
 
 Vector = NDArray[np.float64]
