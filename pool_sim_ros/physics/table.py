@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics import ball_table
 from pool_sim_ros.physics.balls import Ball, checked_balls, store
 from pool_sim_ros.physics.boundary import Rectangle
-from pool_sim_ros.physics.cushions import Cushions
+from pool_sim_ros.physics.cushions import Cushions, rows
 from pool_sim_ros.physics.law_names import (
     DISC_FRICTION_LAWS,
     BallFriction,
@@ -134,6 +134,7 @@ class Table:
                 f'must be {laws[0]!r} or {laws[1]!r}'
             )
         store(self, 'balls', checked_balls(self.balls))
+        store(self, 'pockets', rows('pockets', self.pockets, 3))
         if self.motion == 'ball':
             for name, value in ball_table.checked_fields(self).items():
                 store(self, name, value)
