@@ -15,14 +15,25 @@ from pool_sim_ros.lazy import lazy_exports
 from pool_sim_ros.physics.units import INCH
 
 if TYPE_CHECKING:
+    from pool_sim_ros.physics.aim import aim_at
     from pool_sim_ros.physics.balls import Ball
-    from pool_sim_ros.physics.contacts.single import collide_balls, collide_cushion
-    from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
+    from pool_sim_ros.physics.contacts import (
+        TwoBallCollision,
+        collide_balls,
+        collide_cushion,
+        two_ball_collision,
+    )
     from pool_sim_ros.physics.cue import cue_strike
     from pool_sim_ros.physics.cushions import Cushions
     from pool_sim_ros.physics.game_tables import pool_table
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
-    from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
+    from pool_sim_ros.physics.law_names import (
+        BALL_FRICTION_LAWS,
+        BallFriction,
+        CushionModel,
+        DiscFriction,
+        FrictionBound,
+    )
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
     from pool_sim_ros.physics.outcomes import Outcomes, ShotCancelled, ShotTooLong
@@ -30,7 +41,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.racks import RackKind, rack
     from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
-    from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, BallFriction, Table
+    from pool_sim_ros.physics.table import Table
     from pool_sim_ros.physics.tolerances import V_MIN
     from pool_sim_ros.physics.trajectory import Trajectory
     from pool_sim_ros.physics.validation import check_layout
@@ -38,9 +49,10 @@ else:
     __getattr__ = lazy_exports(
         __name__,
         {
-            'BALL_FRICTION_LAWS': 'table',
+            'BALL_FRICTION_LAWS': 'law_names',
             'Ball': 'balls',
-            'BallFriction': 'table',
+            'BallFriction': 'law_names',
+            'DiscFriction': 'law_names',
             'EventKind': 'log',
             'INTEGRATORS': 'integrators',
             'Integrator': 'integrators',
@@ -50,7 +62,7 @@ else:
             'REPORT_TIME_SLICE': 'integrators',
             'Table': 'table',
             'Trajectory': 'trajectory',
-            'TwoBallCollision': 'contacts.two_ball',
+            'TwoBallCollision': 'contacts',
             'CushionModel': 'law_names',
             'Cushions': 'cushions',
             'FrictionBound': 'law_names',
@@ -58,9 +70,10 @@ else:
             'PoolTableName': 'pool_tables',
             'RackKind': 'racks',
             'V_MIN': 'tolerances',
+            'aim_at': 'aim',
             'check_layout': 'validation',
-            'collide_balls': 'contacts.single',
-            'collide_cushion': 'contacts.single',
+            'collide_balls': 'contacts',
+            'collide_cushion': 'contacts',
             'compile_kernels': 'shots',
             'cue_strike': 'cue',
             'pool_table': 'game_tables',
@@ -69,7 +82,7 @@ else:
             'separated': 'separation',
             'simulate': 'shots',
             'simulate_many': 'shots',
-            'two_ball_collision': 'contacts.two_ball',
+            'two_ball_collision': 'contacts',
         },
     )
 
@@ -82,6 +95,7 @@ __all__ = [
     'BallFriction',
     'CushionModel',
     'Cushions',
+    'DiscFriction',
     'EventKind',
     'FrictionBound',
     'Integrator',
@@ -95,6 +109,7 @@ __all__ = [
     'Trajectory',
     'TwoBallCollision',
     'V_MIN',
+    'aim_at',
     'check_layout',
     'collide_balls',
     'collide_cushion',

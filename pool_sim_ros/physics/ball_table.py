@@ -8,13 +8,14 @@ import numpy as np
 
 from pool_sim_ros.physics.boundary import Rectangle, pocketed_boundary
 from pool_sim_ros.physics.contacts import BallLaw, EdgeLaw
-from pool_sim_ros.physics.cushions import Cushions, check_radii, rows
+from pool_sim_ros.physics.cushions import Cushions, check_radii
 from pool_sim_ros.physics.law_names import (
     CUSHION_MODELS,
     FRICTION_BOUNDS,
     number_of,
 )
 from pool_sim_ros.physics.motion import BallTable
+from pool_sim_ros.physics.tolerances import MAX_FRICTION, MIN_DECELERATION
 from pool_sim_ros.physics.validation import number
 
 if TYPE_CHECKING:
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
 
 COEFFICIENTS = ('mu_slide', 'mu_roll', 'mu_spin', 'nose_height')
 """Fields that a table needs on which balls spin, and that no other has."""
-
-MAX_FRICTION = 1e3
-MIN_DECELERATION = 1e-9
 
 
 def checked_fields(table: Table) -> dict[str, Any]:
@@ -62,13 +60,11 @@ def checked_fields(table: Table) -> dict[str, Any]:
             )
     number_of('cushion_model', table.cushion_model, CUSHION_MODELS)
     number_of('friction_bound', table.friction_bound, FRICTION_BOUNDS)
-    pockets = rows('pockets', table.pockets, 3)
-    check_radii('pockets', pockets)
+    check_radii('pockets', table.pockets)
     if table.cushions is not None and not isinstance(table.cushions, Cushions):
         raise ValueError(f'cushions: {table.cushions!r} must be Cushions(segments, noses) or None')
-    if len(pockets) and table.cushions is None:
+    if len(table.pockets) and table.cushions is None:
         raise ValueError('pockets: a table with pockets needs cushions that leave room for them')
-    fields['pockets'] = pockets
     return fields
 
 

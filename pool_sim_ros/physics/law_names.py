@@ -1,8 +1,15 @@
-"""The names of the laws of contact that a table may choose, in the order of their numbers."""
+"""The names of the laws of contact that a table may choose; a number is an index in its tuple."""
 
 from __future__ import annotations
 
 from typing import Literal, get_args
+
+BallFriction = Literal['report', 'coulomb', 'alciatore']
+BALL_FRICTION_LAWS: tuple[BallFriction, ...] = get_args(BallFriction)
+
+DiscFriction = Literal['report', 'coulomb']
+DISC_FRICTION_LAWS: tuple[DiscFriction, ...] = get_args(DiscFriction)
+"""Those of discs."""
 
 CushionModel = Literal['han', 'impulse', 'stronge', 'mathavan']
 CUSHION_MODELS: tuple[CushionModel, ...] = get_args(CushionModel)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from pool_sim_ros.physics.table import Ball, Table
+from pool_sim_ros.physics.balls import Ball
+from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.units import INCH
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.jit import inlined, kernel
-from pool_sim_ros.physics.tolerances import MAX_TURN_STEPS, TURN_ERROR
+from pool_sim_ros.physics.tolerances import MAX_TURN_STEPS, TURN_ERROR, UNIT_QUATERNION
+from pool_sim_ros.physics.validation import array
 
 Quaternion = tuple[float, float, float, float]
 Vector = tuple[float, float, float]
@@ -16,6 +17,23 @@ Vector = tuple[float, float, float]
 MAGNUS_ERROR = 1.0 / 720.0
 """What the error of a step is at most, beside ``h^5 |change|^2 |w|``: the next terms of Magnus's
 series for a spin that changes evenly (Blanes et al., Physics Reports 470, 2009)."""
+
+
+def unit_quaternions(given: ArrayLike | None, n: int) -> NDArray[np.float64]:
+    """Return (n, 4) unit quaternions; raise ValueError where they are none."""
+    if given is None:
+        return np.tile((0.0, 0.0, 0.0, 1.0), (n, 1))
+    start = array('orientations0', given)
+    if start.shape != (n, 4):
+        raise ValueError(f'orientations0: shape {start.shape} must be ({n}, 4)')
+    lengths = np.linalg.norm(start, axis=1)
+    wrong = ~(np.abs(lengths - 1.0) <= UNIT_QUATERNION)
+    if wrong.any():
+        k = int(wrong.argmax())
+        raise ValueError(
+            f'orientations0[{k}]: {start[k].tolist()} must be a unit quaternion x, y, z, w'
+        )
+    return start / lengths[:, np.newaxis]
 
 
 @inlined
@@ -109,7 +127,7 @@ def look_up_orientations(
     """Fill `found`, (k + 1, n, 4), with orientations at `times`, (k,) in s and in order.
 
     ``found[0]`` has those at the strike. The next one is always on the same side, so that no sign
-    changes from one to the next. Other arguments are as those of `trajectory.look_up_spins`.
+    changes from one to the next. Other arguments are as those of `look_up.look_up_spins`.
     """
     for i in range(len(first) - 1):
         q = found[0, i, 0], found[0, i, 1], found[0, i, 2], found[0, i, 3]

@@ -102,7 +102,7 @@ class Outcomes(NamedTuple):
     offsets: NDArray[np.int64] | None
 
 
-def new_outcomes(shots: int, balls: int, pockets: bool, out: Outcomes | None) -> Outcomes:
+def new_outcomes(shots: int, balls: int, out: Outcomes | None, pockets: bool = False) -> Outcomes:
     """Return room for what comes of so many shots, in the arrays of `out` where it has them.
 
     Without `pockets` one number stands for all that is pocketed, which nobody can change.
@@ -117,18 +117,14 @@ def new_outcomes(shots: int, balls: int, pockets: bool, out: Outcomes | None) ->
         given = getattr(out, name, None)
         return np.empty(shape, dtype) if given is None else _checked(name, given, shape, dtype)
 
-    if pockets:
+    given = None if out is None else out.pocketed
+    shared = given is None or (isinstance(given, np.ndarray) and not given.flags.writeable)
+    if pockets or not shared:
         pocketed = room('pocketed', (shots, balls), np.int64)
+        if not pockets:
+            pocketed[...] = -1
     else:
         pocketed = np.ndarray((shots, balls), np.int64, NO_POCKET, strides=(0, 0))
-    if (
-        not pockets
-        and out is not None
-        and out.pocketed is not None
-        and out.pocketed.flags.writeable
-    ):
-        pocketed = _checked('pocketed', out.pocketed, (shots, balls), np.int64)
-        pocketed[...] = -1
     return Outcomes(
         finals=room('finals', (shots, balls, 2), np.float64),
         durations=room('durations', (shots,), np.float64),

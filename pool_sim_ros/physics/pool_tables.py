@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from pool_sim_ros.physics.cushions import Cushions
 from pool_sim_ros.physics.pocket_geometry import Mouth, pocket_table
+from pool_sim_ros.physics.racks import RackKind
 from pool_sim_ros.physics.units import INCH
 
 PoolTableName = Literal['7ft', '8ft', '9ft', 'snooker', 'carom']
@@ -50,7 +51,7 @@ class PoolTable:
         None for four straight cushions.
     pockets : ndarray of shape (q, 3)
         Rows of x, y and radius, m.
-    rack : str
+    rack : RackKind
         What is racked on it, as `rack` has it.
     """
 
@@ -64,7 +65,7 @@ class PoolTable:
     mu_ball_cushion: float
     cushions: Cushions | None
     pockets: NDArray[np.float64]
-    rack: str
+    rack: RackKind
 
     @property
     def mu_spin(self) -> float:

@@ -182,7 +182,7 @@ def simulate_many(
             check_layout(table, given)
             at_rest = table.records_at(given)
     check_end(table, moving, until, integrator, time_slice)
-    outcomes = new_outcomes(shots, len(table.balls), len(table.pockets) > 0, out)
+    outcomes = new_outcomes(shots, len(table.balls), out, len(table.pockets) > 0)
     ends = Ends(
         outcomes.finals,
         outcomes.durations,

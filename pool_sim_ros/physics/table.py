@@ -14,23 +14,25 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics import ball_table
 from pool_sim_ros.physics.balls import Ball, checked_balls, store
 from pool_sim_ros.physics.boundary import Rectangle
-from pool_sim_ros.physics.cushions import Cushions
-from pool_sim_ros.physics.law_names import CushionModel, FrictionBound
+from pool_sim_ros.physics.cushions import Cushions, rows
+from pool_sim_ros.physics.law_names import (
+    DISC_FRICTION_LAWS,
+    BallFriction,
+    CushionModel,
+    FrictionBound,
+)
 from pool_sim_ros.physics.log import SEGMENT, SPIN_SEGMENT
 from pool_sim_ros.physics.motion import BallTable, DiscTable, ball_record, disc_record
+from pool_sim_ros.physics.tolerances import MAX_FRICTION, MIN_DECELERATION
 from pool_sim_ros.physics.validation import check_layout, number
 
 Motion = Literal['disc', 'ball']
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
-BallFriction = Literal['report', 'coulomb', 'alciatore']
-BALL_FRICTION_LAWS: tuple[BallFriction, ...] = get_args(BallFriction)
-LAWS_OF_MOTION = {'disc': ('report', 'coulomb'), 'ball': ('coulomb', 'alciatore')}
+LAWS_OF_MOTION = {'disc': DISC_FRICTION_LAWS, 'ball': ('coulomb', 'alciatore')}
 
 MAX_SIZE = 1e4
 GRAVITIES = (1e-6, 1e6)
-MAX_FRICTION = 1e3
-MIN_DECELERATION = 1e-9
 """Ranges in SI units, far beyond any table: within them no calculation here overflows, and a
 rounding error of a position stays well below `validation.OVERLAP`."""
 
@@ -132,6 +134,7 @@ class Table:
                 f'must be {laws[0]!r} or {laws[1]!r}'
             )
         store(self, 'balls', checked_balls(self.balls))
+        store(self, 'pockets', rows('pockets', self.pockets, 3))
         if self.motion == 'ball':
             for name, value in ball_table.checked_fields(self).items():
                 store(self, name, value)

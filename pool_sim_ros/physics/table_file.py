@@ -22,10 +22,7 @@ LARGEST = 64 * 1024 * 1024
 
 def save_table(table: Table, path: str | os.PathLike[str]) -> None:
     """Write a table to a JSON file."""
-    content: dict[str, Any] = {'format': FORMAT, 'version': VERSION}
-    for field in dataclasses.fields(table):
-        content[field.name] = _plain(getattr(table, field.name))
-    Path(path).expanduser().write_text(json.dumps(content, indent=1) + '\n', encoding='utf-8')
+    Path(path).expanduser().write_text(table_text(table), encoding='utf-8')
 
 
 def load_table(path: str | os.PathLike[str]) -> Table:
@@ -43,15 +40,31 @@ def load_table(path: str | os.PathLike[str]) -> Table:
             text = opened.read(LARGEST + 1)
         if len(text) > LARGEST:
             raise ValueError(f'it has more than {LARGEST // 2**20} MiB')
-        content = json.loads(text)
-        if not isinstance(content, dict) or content.pop('format', None) != FORMAT:
-            raise ValueError(f'it is no {FORMAT}')
-        version = content.pop('version', None)
-        if version != VERSION:
-            raise ValueError(f'version: {version!r} must be {VERSION}')
-        return _table(content)
-    except (ValueError, RecursionError) as error:
+        return table_of_text(text)
+    except ValueError as error:
         raise ValueError(f'{file}: {error}') from None
+
+
+def table_text(table: Table) -> str:
+    """Return a table as JSON."""
+    content: dict[str, Any] = {'format': FORMAT, 'version': VERSION}
+    for field in dataclasses.fields(table):
+        content[field.name] = _plain(getattr(table, field.name))
+    return json.dumps(content, indent=1) + '\n'
+
+
+def table_of_text(text: str | bytes) -> Table:
+    """Return the table that `table_text` made JSON of; raise ValueError, naming the field."""
+    try:
+        content = json.loads(text)
+    except RecursionError:
+        raise ValueError('it is nested too deep') from None
+    if not isinstance(content, dict) or content.pop('format', None) != FORMAT:
+        raise ValueError(f'it is no {FORMAT}')
+    version = content.pop('version', None)
+    if version != VERSION:
+        raise ValueError(f'version: {version!r} must be {VERSION}')
+    return _table(content)
 
 
 def _plain(value: Any) -> Any:

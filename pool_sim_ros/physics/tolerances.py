@@ -159,6 +159,14 @@ ROOT_PRECISION = 4e-16
 CUSHION_STEPS = 200
 """Steps of the coarser of two integrations along the push of a cushion (Mathavan's model)."""
 
+# What a table may have
+
+MAX_FRICTION = 1e3
+"""Coefficient of friction, far beyond any cloth: within it no calculation here overflows."""
+
+MIN_DECELERATION = 1e-9
+"""m/s^2 by which a cloth slows the balls where it slows them at all: so they stop some day."""
+
 # Shots that do not end
 
 RUNAWAY_GAIN = 100.0

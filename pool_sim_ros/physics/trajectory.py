@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pool_sim_ros.physics.jit import for_kernels, inlined, kernel
-from pool_sim_ros.physics.orientation import look_up_orientations
+from pool_sim_ros.physics.jit import for_kernels
+from pool_sim_ros.physics.look_up import look_up, look_up_spins
+from pool_sim_ros.physics.motion import BallTable
+from pool_sim_ros.physics.orientation import look_up_orientations, unit_quaternions
 from pool_sim_ros.physics.table import Table
-from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT, UNIT_QUATERNION
-from pool_sim_ros.physics.validation import array
+from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,14 +32,16 @@ class Trajectory:
         Time from the strike until the last ball rests, or `until`, s.
     events : structured ndarray
         In order of time: ``t`` (s); ``kind``: 0 ball-ball (a < b), 1 cushion (b: 0 is x = 0,
-        1 is x = length, 2 is y = 0, 3 is y = width), 2 stop (b = -1); ``a``, ``b``; ``x``, ``y``:
-        the point of contact, or the centre of a ball that stops (m); ``nx``, ``ny``: the unit
-        vector from a to b or into the cushion, zero for a stop; ``speed``: closing speed before
-        the contact (m/s).
+        1 is x = length, 2 is y = 0, 3 is y = width; with `Table.cushions` the row, segments first,
+        then noses), 2 stop (b = -1), 3 pocketed (b: the pocket), 4 a slide becomes a roll (b = -1);
+        ``a``, ``b``; ``x``, ``y``: the point of contact, or the centre of the ball (m); ``nx``,
+        ``ny``: the unit vector from a to b or into the cushion, otherwise zero; ``speed``: closing
+        speed before a contact, otherwise that of the ball (m/s).
     segments : structured ndarray
         What each ball does from ``t`` on, in order of time: ``ball``, ``t`` (s), ``x``, ``y`` (m),
         ``vx``, ``vy`` (m/s) and the constant acceleration ``ax``, ``ay`` (m/s^2), until its next
-        segment. At rest all four are zero.
+        segment. At rest all four are zero. Where balls spin, also ``wx``, ``wy``, ``wz`` (rad/s)
+        and what wx and wy change by, ``turn_x``, ``turn_y`` (rad/s^2).
     complete : bool
         Whether all balls are at rest at the end.
     """
@@ -57,6 +61,19 @@ class Trajectory:
         if self._pocketed is not None and self._pocketed.size:
             return self._pocketed
         return np.full(len(self.final_positions), -1)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the trajectory, with its table, to a file of NumPy's npz format."""
+        from pool_sim_ros.physics.trajectory_file import save_trajectory
+
+        save_trajectory(self, path)
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Trajectory:
+        """Read a trajectory; raises ValueError, naming file and field, and OSError."""
+        from pool_sim_ros.physics.trajectory_file import load_trajectory
+
+        return load_trajectory(path)
 
     def positions(self, times: ArrayLike) -> NDArray[np.float64]:
         """Return where the balls are.
@@ -89,10 +106,9 @@ class Trajectory:
         """
         asked, flat = self._times(times)
         found = np.zeros((len(flat), len(self.final_positions), 3))
-        if self.table.motion == 'ball':
-            first, order = self._by_ball
-            fades = self.table.for_kernels.spin
-            look_up_spins(self.segments, first, order, flat, fades, found)
+        kernels = self.table.for_kernels
+        if isinstance(kernels, BallTable):
+            look_up_spins(self.segments, *self._by_ball, flat, kernels.spin, found)
         return found if asked.ndim else found[0]
 
     def orientations(
@@ -120,14 +136,14 @@ class Trajectory:
         """
         asked, flat = self._times(times)
         n = len(self.final_positions)
-        start = _unit_quaternions(orientations0, n)
+        start = unit_quaternions(orientations0, n)
         found = np.empty((len(flat) + 1, n, 4))
         found[:] = start
-        if self.table.motion == 'ball':
-            first, order = self._by_ball
+        kernels = self.table.for_kernels
+        if isinstance(kernels, BallTable):
             in_time = np.argsort(flat, kind='stable')
-            fades = self.table.for_kernels.spin
-            look_up_orientations(self.segments, first, order, flat[in_time], fades, found)
+            in_order = flat[in_time]
+            look_up_orientations(self.segments, *self._by_ball, in_order, kernels.spin, found)
             found[1:][in_time] = found[1:].copy()
         return found[1:] if asked.ndim else found[1]
 
@@ -187,19 +203,6 @@ class Trajectory:
         return np.concatenate([[0], np.cumsum(counts)]), order
 
 
-def _unit_quaternions(given: ArrayLike | None, n: int) -> NDArray[np.float64]:
-    """Return (n, 4) unit quaternions; raise ValueError where they are none."""
-    if given is None:
-        return np.tile((0.0, 0.0, 0.0, 1.0), (n, 1))
-    start = array('orientations0', given)
-    if start.shape != (n, 4):
-        raise ValueError(f'orientations0: shape {start.shape} must be ({n}, 4)')
-    lengths = np.linalg.norm(start, axis=1)
-    if not np.all(np.abs(lengths - 1.0) <= UNIT_QUATERNION):
-        raise ValueError(f'orientations0: {start[0]} must be unit quaternions x, y, z, w')
-    return start / lengths[:, np.newaxis]
-
-
 def _curve(segment: np.void, lasts: float) -> NDArray[np.float64]:
     """Return points on a segment, (k, 2) in m, the first at its start and none at its end."""
     v = np.array([segment['vx'], segment['vy']])
@@ -222,73 +225,3 @@ def _most_across(v: NDArray[np.float64], a: NDArray[np.float64], lasts: float) -
         return 0.0
     slowest = min(max(-float(v @ a) / squared, 0.0), lasts)
     return cross / math.hypot(*(v + slowest * a))
-
-
-@kernel
-def look_up(
-    segments: NDArray[np.void],
-    first: NDArray[np.int64],
-    order: NDArray[np.int64],
-    times: NDArray[np.float64],
-    what: int,
-    found: NDArray[np.float64],
-) -> None:
-    """Fill `found`, (k, n, 2), with positions (`what` 0) or velocities (1) at `times`, (k,).
-
-    Ball i has the segments ``order[first[i]:first[i + 1]]``, in order of time.
-    """
-    for i in range(len(first) - 1):
-        for k in range(len(times)):
-            segment = segments[segment_at(segments, first, order, i, times[k])]
-            elapsed = times[k] - segment.t
-            if what == 1:
-                found[k, i, 0] = segment.vx + segment.ax * elapsed
-                found[k, i, 1] = segment.vy + segment.ay * elapsed
-            elif segment.ax == 0.0 and segment.ay == 0.0 and segment.vx == 0.0 == segment.vy:
-                # At rest, for ever: infinity times nothing is no number.
-                found[k, i, 0], found[k, i, 1] = segment.x, segment.y
-            else:
-                found[k, i, 0] = segment.x + elapsed * (segment.vx + 0.5 * segment.ax * elapsed)
-                found[k, i, 1] = segment.y + elapsed * (segment.vy + 0.5 * segment.ay * elapsed)
-
-
-@kernel
-def look_up_spins(
-    segments: NDArray[np.void],
-    first: NDArray[np.int64],
-    order: NDArray[np.int64],
-    times: NDArray[np.float64],
-    fades: float,
-    found: NDArray[np.float64],
-) -> None:
-    """Fill `found`, (k, n, 3), with spins in rad/s; as `look_up`.
-
-    The spin about the vertical axis falls by `fades` rad/s^2.
-    """
-    for i in range(len(first) - 1):
-        for k in range(len(times)):
-            segment = segments[segment_at(segments, first, order, i, times[k])]
-            elapsed = times[k] - segment.t
-            left = max(abs(segment.wz) - fades * elapsed, 0.0)
-            found[k, i, 0] = segment.wx + segment.turn_x * elapsed
-            found[k, i, 1] = segment.wy + segment.turn_y * elapsed
-            found[k, i, 2] = left if segment.wz > 0.0 else -left
-
-
-@inlined
-def segment_at(
-    segments: NDArray[np.void],
-    first: NDArray[np.int64],
-    order: NDArray[np.int64],
-    i: int,
-    t: float,
-) -> int:
-    """Return the number of the segment of ball `i` at `t`, s."""
-    low, high = first[i], first[i + 1]
-    while high - low > 1:
-        middle = (low + high) // 2
-        if segments[order[middle]].t <= t:
-            low = middle
-        else:
-            high = middle
-    return order[low]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pool_sim_ros.physics.boundary import is_outside
+from pool_sim_ros.physics.boundary import is_outside, pocket_at
 from pool_sim_ros.physics.jit import for_kernels, kernel
 from pool_sim_ros.physics.tolerances import OVERLAP
 
@@ -151,5 +151,8 @@ def first_fault(
             dy = positions[j, 1] - positions[i, 1]
             least = radii[i] + radii[j] - OVERLAP
             if least > 0.0 and dx * dx + dy * dy < least * least:
-                return min(i, j), max(i, j)
+                # What lies in a pocket touches nothing.
+                caught = pocket_at(boundary, positions[i, 0], positions[i, 1]) >= 0
+                if not (caught or pocket_at(boundary, positions[j, 0], positions[j, 1]) >= 0):
+                    return min(i, j), max(i, j)
     return -1, -1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from pool_sim_ros.physics import Ball, BallFriction, Table, TwoBallCollision, two_ball_collision
+from pool_sim_ros.physics import Ball, DiscFriction, Table, TwoBallCollision, two_ball_collision
 
 VELOCITY = (1.2, 0.6)
 """Of ball a, m/s; ball b is at rest."""
@@ -57,7 +57,7 @@ class Example:
         """Direction of the line of centres, rad from the y axis towards x (Equation 4)."""
         return self.velocity_angle - self.offset_angle
 
-    def collide(self, ball_friction: BallFriction) -> TwoBallCollision:
+    def collide(self, ball_friction: DiscFriction) -> TwoBallCollision:
         """Return the outcome under a law of friction.
 
         Parameters

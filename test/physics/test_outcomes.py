@@ -84,12 +84,13 @@ def test_events_of_shots_of_which_some_failed():
 
 
 def test_a_part_of_the_ends_is_the_same_memory():
-    outcomes = new_outcomes(6, 2, None)
+    outcomes = new_outcomes(6, 2, None, pockets=True)
     ends = Ends(*(getattr(outcomes, name) for name in Ends._fields))
     part = ends.part(slice(2, 5))
     for array in part:
         array[...] = 3
     assert outcomes.durations[2:5].tolist() == [3.0] * 3
+    assert np.all(outcomes.pocketed[2:5] == 3)
     assert part.finals.shape == (3, 2, 2)
 
 

@@ -5,9 +5,9 @@ import pickle
 
 import numpy as np
 import pytest
-from tables import random_table, table_of, under
+from tables import LAWS, random_table, table_of, under
 
-from pool_sim_ros.physics import BALL_FRICTION_LAWS, Ball, Table
+from pool_sim_ros.physics import Ball, Table
 from pool_sim_ros.physics.boundary import Rectangle
 from pool_sim_ros.physics.motion import DISC, RESTS, DiscTable
 
@@ -33,7 +33,7 @@ def test_arrays_are_made_once_and_cannot_be_changed(name):
 
 
 def test_what_the_kernels_know():
-    for law in BALL_FRICTION_LAWS:
+    for law in LAWS:
         table = random_table(np.random.default_rng(2), 3, law)
         assert table.for_kernels == DiscTable(
             boundary=Rectangle(table.length, table.width),

@@ -27,6 +27,7 @@ from pool_sim_ros.physics.contacts.edge import (
 )
 from pool_sim_ros.physics.contacts.laws import bounce, collide_pair
 from pool_sim_ros.physics.contacts.rigid_edge import rebound
+from pool_sim_ros.physics.contacts.single import collide_balls, collide_cushion
 from pool_sim_ros.physics.contacts.spheres import (
     BallLaw,
     collide_spheres,
@@ -34,11 +35,15 @@ from pool_sim_ros.physics.contacts.spheres import (
     friction_of_balls,
     rub_spheres,
 )
+from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_collision
 
 __all__ = [
     'BallLaw',
     'EdgeLaw',
+    'TwoBallCollision',
     'bounce',
+    'collide_balls',
+    'collide_cushion',
     'collide_disc_with_cushion',
     'collide_discs',
     'collide_pair',
@@ -61,4 +66,5 @@ __all__ = [
     'rub_spheres',
     'sign',
     'to_contact_axes',
+    'two_ball_collision',
 ]

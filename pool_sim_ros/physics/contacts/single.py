@@ -18,8 +18,7 @@ from pool_sim_ros.physics.law_names import (
     FrictionBound,
     number_of,
 )
-from pool_sim_ros.physics.table import MAX_FRICTION
-from pool_sim_ros.physics.tolerances import MAX_SPEED, MAX_SPIN
+from pool_sim_ros.physics.tolerances import MAX_FRICTION, MAX_SPEED, MAX_SPIN
 from pool_sim_ros.physics.validation import number, numbers
 
 Vector = NDArray[np.float64]

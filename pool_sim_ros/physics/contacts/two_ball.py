@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.boundary import Rectangle
 from pool_sim_ros.physics.contacts.discs import collide_discs
+from pool_sim_ros.physics.law_names import DISC_FRICTION_LAWS, DiscFriction
 from pool_sim_ros.physics.motion import DiscTable
-from pool_sim_ros.physics.table import BALL_FRICTION_LAWS, BallFriction
 from pool_sim_ros.physics.validation import number, numbers
 
 
@@ -51,7 +51,7 @@ def two_ball_collision(
     offset: float,
     restitution: float,
     friction: float,
-    ball_friction: BallFriction = 'coulomb',
+    ball_friction: DiscFriction = 'coulomb',
 ) -> TwoBallCollision:
     """Return the velocities of two balls after they collide (report, section 1).
 
@@ -89,7 +89,7 @@ def two_ball_collision(
     offset = number('offset', offset)
     restitution = number('restitution', restitution, least=0.0, most=1.0)
     friction = number('friction', friction, least=0.0)
-    if ball_friction not in BALL_FRICTION_LAWS:
+    if ball_friction not in DISC_FRICTION_LAWS:
         raise ValueError(f"ball_friction: {ball_friction!r} must be 'report' or 'coulomb'")
     if abs(offset) >= reach:
         raise ValueError(f'offset: {offset} m; beyond the two radii, {reach:g} m, the balls miss')
