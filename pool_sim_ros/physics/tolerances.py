@@ -93,6 +93,16 @@ REPEAT_WINDOW = 1e-3
 LEAST_PARTING = 1e-3
 """The same as V_MIN for balls that spin, m/s: what the cloth presses on is ended by this."""
 
+STEADY_HELD = 2000
+"""Weak contacts of a ball that spins, each within PRESS_WINDOW of the one before, after which it
+is held there for long: two seconds, pressed by a cloth with friction 0.2."""
+
+HELD_GROWTH = 2.0 ** (1.0 / 128.0)
+"""What LEAST_PARTING is then multiplied by at each further one: time grows as fast."""
+
+MOST_HELD = STEADY_HELD + 128 * 10
+"""How many are counted: a ball then parts at 1 m/s, after minutes of spinning on the spot."""
+
 ROUND = 1e-6
 """Time in s within which a contact belongs to the same rattle as the one before."""
 

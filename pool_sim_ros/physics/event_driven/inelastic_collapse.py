@@ -18,17 +18,20 @@ from pool_sim_ros.physics.jit import Record, chosen_by, inlined, register
 from pool_sim_ros.physics.motion import BallTable, DiscTable
 from pool_sim_ros.physics.tolerances import (
     COLLAPSE_GROWTH,
+    HELD_GROWTH,
     LAST_ROUND,
     LEAST_PARTING,
     MAX_PRESSES,
     MAX_REPEATS,
     MAX_ROUNDS,
+    MOST_HELD,
     PRESS_GROWTH,
     PRESS_MARGIN,
     PRESS_WINDOW,
     REPEAT_WINDOW,
     ROUND,
     SETTLE_EVERY,
+    STEADY_HELD,
     STEADY_PRESSES,
     V_MIN,
     V_ROUNDING,
@@ -185,8 +188,10 @@ def ball_separation(
     if closing > LEAST_PARTING:
         return parting, -1, -1
     again = now - last_contact_time < PRESS_WINDOW
-    repeats = min(repeats + 1, MAX_REPEATS) if again else 0
-    least = min(LEAST_PARTING, V_ROUNDING * COLLAPSE_GROWTH**repeats)
+    repeats = min(repeats + 1, MOST_HELD) if again else 0
+    least = min(LEAST_PARTING, V_ROUNDING * COLLAPSE_GROWTH ** min(repeats, MAX_REPEATS))
+    # A ball that spins fast is pressed for long: this must end within few contacts.
+    least *= HELD_GROWTH ** max(repeats - STEADY_HELD, 0)
     return max(parting, least), repeats, 0
 
 
