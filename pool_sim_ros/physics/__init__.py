@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
     from pool_sim_ros.physics.table import Table
+    from pool_sim_ros.physics.table_file import table_from_fields, table_to_fields
     from pool_sim_ros.physics.tolerances import V_MIN
     from pool_sim_ros.physics.trajectory import Trajectory
     from pool_sim_ros.physics.validation import check_layout
@@ -82,6 +83,8 @@ else:
             'separated': 'separation',
             'simulate': 'shots',
             'simulate_many': 'shots',
+            'table_from_fields': 'table_file',
+            'table_to_fields': 'table_file',
             'two_ball_collision': 'contacts',
         },
     )
@@ -121,5 +124,7 @@ __all__ = [
     'separated',
     'simulate',
     'simulate_many',
+    'table_from_fields',
+    'table_to_fields',
     'two_ball_collision',
 ]

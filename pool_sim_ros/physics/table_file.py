@@ -47,10 +47,13 @@ def load_table(path: str | os.PathLike[str]) -> Table:
 
 def table_text(table: Table) -> str:
     """Return a table as JSON."""
-    content: dict[str, Any] = {'format': FORMAT, 'version': VERSION}
-    for field in dataclasses.fields(table):
-        content[field.name] = _plain(getattr(table, field.name))
+    content = {'format': FORMAT, 'version': VERSION, **table_to_fields(table)}
     return json.dumps(content, indent=1) + '\n'
+
+
+def table_to_fields(table: Table) -> dict[str, Any]:
+    """Return the fields of a table and of its balls as numbers, texts and lists."""
+    return {field.name: _plain(getattr(table, field.name)) for field in dataclasses.fields(table)}
 
 
 def table_of_text(text: str | bytes) -> Table:
@@ -64,7 +67,7 @@ def table_of_text(text: str | bytes) -> Table:
     version = content.pop('version', None)
     if version != VERSION:
         raise ValueError(f'version: {version!r} must be {VERSION}')
-    return _table(content)
+    return table_from_fields(content)
 
 
 def _plain(value: Any) -> Any:
@@ -81,7 +84,8 @@ def _fields(value: Any) -> tuple[dataclasses.Field[Any], ...]:
     return dataclasses.fields(value)
 
 
-def _table(content: dict[str, Any]) -> Table:
+def table_from_fields(content: dict[str, Any]) -> Table:
+    """Return the table of which `table_to_fields` gives these; raise ValueError, naming a field."""
     balls = content.get('balls')
     if not isinstance(balls, list):
         raise ValueError(f'balls: {balls!r} must be a list')

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
 
-from pool_sim_ros.physics import Ball, Table
+from pool_sim_ros.physics import Table, table_from_fields, table_to_fields
 from pool_sim_ros.simulator.strict_json import read_json_object
 
 LONGEST = 10_000_000
@@ -14,7 +13,7 @@ LONGEST = 10_000_000
 
 def table_to_json(table: Table) -> str:
     """Return a table as JSON: its fields and those of its balls, under their own names."""
-    return json.dumps(asdict(table), allow_nan=False)
+    return json.dumps(table_to_fields(table), allow_nan=False)
 
 
 def table_from_json(text: str) -> Table:
@@ -28,8 +27,6 @@ def table_from_json(text: str) -> Table:
     if len(text) > LONGEST:
         raise ValueError(f'a table has at most {LONGEST} characters, not {len(text)}')
     try:
-        fields = read_json_object(text)
-        balls = tuple(Ball(**ball) for ball in fields.pop('balls'))
-        return Table(balls=balls, **fields)
+        return table_from_fields(read_json_object(text))
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise ValueError(f'this is no table: {error}') from error

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Coroutine
-from dataclasses import asdict
 from typing import Any
 
 from rclpy.context import Context
 
 from pool_sim_ros.me212 import published_final_positions
-from pool_sim_ros.physics import Table, compile_kernels
+from pool_sim_ros.physics import Table, compile_kernels, table_to_fields
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.simulator import (
     Phase,
@@ -162,7 +161,7 @@ class View:
     def on_table(self, table: Any) -> None:
         """Show the table."""
         self._table = table_from_json(table.data)
-        self.pages.tell('table', asdict(self._table), keep=True)
+        self.pages.tell('table', table_to_fields(self._table), keep=True)
         self._run(self._compile(self._table))
 
     async def _compile(self, table: Table) -> None:
