@@ -79,7 +79,10 @@ def cue_strike(
 
     Examples
     --------
-    >>> velocity, spin = cue_strike(table, speed=2.0, azimuth=180.0, side=0.2, above=-0.3)
+    >>> from pool_sim_ros.physics import report_table
+    >>> velocity, spin = cue_strike(report_table(), speed=2.0, azimuth=0.0, above=0.4)
+    >>> bool(velocity[0] > 0.0), bool(spin[1] > 0.0)
+    (True, True)
     """
     ball = table.balls[0]
     speed = number('speed', speed, 0.0, MAX_SPEED)

@@ -138,7 +138,6 @@ def test_a_table_with_any_labels_is_drawn(tmp_path):
     pytest.importorskip('latex2mathml', reason='pip install latex2mathml')
     labels = [
         r'C',
-        r'\ud800',
         r'\0\x1b[8m',
         r'a\nb',
         r'\u202e',
@@ -160,6 +159,14 @@ def test_a_table_with_any_labels_is_drawn(tmp_path):
     )
     assert (status, err) == (0, ''), err
     assert 'report.html' in out
+
+
+def test_half_a_character_is_none_to_ros_either(tmp_path):
+    """libyaml, which ROS reads with, refuses it; so one line says so here."""
+    table = tmp_path / 'half.yaml'
+    table.write_text('/**:\n  ros__parameters:\n    balls:\n      labels: ["\\ud800"]\n')
+    status, out, err = run('--table', table, '--out', tmp_path / 'out', '--log-only', cwd=tmp_path)
+    assert status == 1 and out == '' and err.count('\n') == 1 and 'line 4' in err
 
 
 def test_a_tilde_is_the_home_of_the_user(tmp_path, monkeypatch):
