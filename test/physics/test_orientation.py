@@ -185,6 +185,8 @@ def test_a_wrong_shape_is_named(given, words):
 
 @pytest.mark.parametrize('wrong', [(0.0, 0.0, 0.0, 0.0), (0, 0, 0, 1.001), (0, 0, 0, math.nan)])
 def test_what_is_no_unit_quaternion_is_named(wrong):
-    with pytest.raises(ValueError, match=r'^orientations0\[1\]: \[0.0, .* must be a unit') as caught:
+    with pytest.raises(
+        ValueError, match=r'^orientations0\[1\]: \[0.0, .* must be a unit'
+    ) as caught:
         unit_quaternions([IDENTITY, wrong], 2)
     assert str(float(wrong[3])) in str(caught.value)
