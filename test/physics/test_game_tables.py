@@ -18,7 +18,7 @@ def test_it_has_the_dimensions_and_the_rack_of_its_name(name):
         np.testing.assert_array_equal(getattr(table, field), value, err_msg=field)
     assert table.balls == rack(table, given.rack) and len(table.balls) == COUNTS[name]
     assert table.labels[0] == 'C' and table.is_cue.tolist() == [True] + [False] * (COUNTS[name] - 1)
-    assert worst_overlap(table, table.positions) <= 0.0
+    assert worst_overlap(table, table.positions[np.newaxis]) <= 0.0
     assert table.motion == 'ball' and table.comes_to_rest
 
 
