@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
     from pool_sim_ros.physics.law_names import (
         BALL_FRICTION_LAWS,
+        DISC_FRICTION_LAWS,
         BallFriction,
         CushionModel,
         DiscFriction,
@@ -51,6 +52,7 @@ else:
         __name__,
         {
             'BALL_FRICTION_LAWS': 'law_names',
+            'DISC_FRICTION_LAWS': 'law_names',
             'Ball': 'balls',
             'BallFriction': 'law_names',
             'DiscFriction': 'law_names',
@@ -91,6 +93,7 @@ else:
 
 __all__ = [
     'BALL_FRICTION_LAWS',
+    'DISC_FRICTION_LAWS',
     'INCH',
     'INTEGRATORS',
     'REPORT_TIME_SLICE',

@@ -22,7 +22,7 @@ from pool_sim_ros.physics.law_names import (
     FrictionBound,
 )
 from pool_sim_ros.physics.log import SEGMENT, SPIN_SEGMENT
-from pool_sim_ros.physics.motion import BallTable, DiscTable, ball_record, disc_record
+from pool_sim_ros.physics.motion import BallTable, DiscTable, discs_at_rest, spheres_at_rest
 from pool_sim_ros.physics.tolerances import MAX_FRICTION, MIN_DECELERATION
 from pool_sim_ros.physics.validation import check_layout, number
 
@@ -244,10 +244,8 @@ class Table:
         """Return the kernels' records of the balls at rest at (n, 2) positions, m."""
         if self.motion == 'ball':
             boundary = self.for_kernels.boundary
-            return ball_record.balls_at_rest(
-                positions, self.radii, self.masses, self.is_cue, boundary
-            )
-        return disc_record.balls_at_rest(positions, self.radii, self.masses, self.is_cue)
+            return spheres_at_rest(positions, self.radii, self.masses, self.is_cue, boundary)
+        return discs_at_rest(positions, self.radii, self.masses, self.is_cue)
 
 
 def _read_only(values: Sequence[object], dtype: type = float) -> NDArray[Any]:

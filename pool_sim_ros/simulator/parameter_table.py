@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
-from pool_sim_ros.physics import BALL_FRICTION_LAWS, INTEGRATORS, REPORT_TIME_SLICE, report_table
+from pool_sim_ros.physics import DISC_FRICTION_LAWS, INTEGRATORS, REPORT_TIME_SLICE, report_table
 
 ParameterValue = bool | int | float | str | list[float] | list[str]
 """A value of a parameter, in the type of its default."""
@@ -117,7 +117,7 @@ def _parameters() -> tuple[ParameterSpec, ...]:
             table.ball_friction,
             'law of friction between two balls',
             strike,
-            choices=BALL_FRICTION_LAWS,
+            choices=DISC_FRICTION_LAWS,
         ),
         spec('balls.labels', list(table.labels), f'one for each ball, cue ball first; {per_ball}'),
         spec('balls.masses', [ball.mass for ball in balls], f'kg; {per_ball}'),

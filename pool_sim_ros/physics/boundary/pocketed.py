@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pool_sim_ros.physics.boundary.mouths import faces, height_above, is_cut_off
 from pool_sim_ros.physics.boundary.rectangle import time_to_rectangle
 from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION, PHASE_END
 from pool_sim_ros.physics.contact_time import RelativeMotion, time_to_line, time_to_moving_ball
@@ -73,20 +74,6 @@ def _crosses(
 
 def n_cushions(boundary: PocketedBoundary) -> int:
     return len(boundary.segments) + len(boundary.noses)
-
-
-@inlined
-def faces(segment: NDArray[np.float64], x: float, y: float) -> bool:
-    """Return whether the foot of the perpendicular from (x, y) lies on a segment."""
-    dx, dy = segment[2] - segment[0], segment[3] - segment[1]
-    along = (x - segment[0]) * dx + (y - segment[1]) * dy
-    return 0.0 <= along <= dx * dx + dy * dy
-
-
-@inlined
-def height_above(segment: NDArray[np.float64], x: float, y: float) -> float:
-    """Return the distance of (x, y) from a segment's line, m; negative behind it."""
-    return (x - segment[0]) * segment[4] + (y - segment[1]) * segment[5]
 
 
 def cushion_gap(
@@ -281,7 +268,7 @@ def is_outside(
 ) -> bool:
     if pocket_around(boundary, x, y) >= 0:
         return False
-    if not (0.0 <= x <= boundary.length and 0.0 <= y <= boundary.width):
+    if not (abs(x) < np.inf and abs(y) < np.inf):
         return True
     least = radius - tolerance
     for k in range(len(boundary.segments)):
@@ -292,4 +279,6 @@ def is_outside(
         nose = boundary.noses[k]
         if np.hypot(x - nose[0], y - nose[1]) < nose[2] + least:
             return True
-    return False
+    if 0.0 <= x <= boundary.length and 0.0 <= y <= boundary.width:
+        return False
+    return is_cut_off(boundary, x, y, radius)

@@ -9,6 +9,7 @@ from pool_sim_ros.physics.contacts.discs import (
     collide_discs,
     contact_normal,
     coulomb_impulse,
+    reduced_mass,
     report_friction,
     restitution,
     rub_balls,
@@ -26,10 +27,16 @@ from pool_sim_ros.physics.contacts.edge import (
     to_contact_axes,
 )
 from pool_sim_ros.physics.contacts.laws import bounce, collide_pair
-from pool_sim_ros.physics.contacts.rigid_edge import rebound
+from pool_sim_ros.physics.contacts.rigid_edge import (
+    lean_of_push,
+    rebound,
+    rigid_share,
+    slip_at_edge,
+)
 from pool_sim_ros.physics.contacts.single import collide_balls, collide_cushion
 from pool_sim_ros.physics.contacts.spheres import (
     BallLaw,
+    Motion,
     collide_spheres,
     friction_bound,
     friction_of_balls,
@@ -40,6 +47,7 @@ from pool_sim_ros.physics.contacts.two_ball import TwoBallCollision, two_ball_co
 __all__ = [
     'BallLaw',
     'EdgeLaw',
+    'Motion',
     'TwoBallCollision',
     'bounce',
     'collide_balls',
@@ -56,15 +64,19 @@ __all__ = [
     'friction_of_edge',
     'from_contact_axes',
     'lean_of',
+    'lean_of_push',
     'meet_edge',
     'parting_of_push',
     'rebound',
+    'reduced_mass',
     'report_friction',
     'restitution',
+    'rigid_share',
     'rub_balls',
     'rub_cushion',
     'rub_spheres',
     'sign',
+    'slip_at_edge',
     'to_contact_axes',
     'two_ball_collision',
 ]

@@ -8,19 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.boundary import cushion_of_partner, nose_radius
-from pool_sim_ros.physics.contacts import rub_balls, rub_cushion
-from pool_sim_ros.physics.contacts.discs import reduced_mass, restitution
-from pool_sim_ros.physics.contacts.rigid_edge import (
-    lean_of_push,
-    rebound,
-    rigid_share,
-    slip_at_edge,
-)
-from pool_sim_ros.physics.contacts.spheres import (
+from pool_sim_ros.physics.contacts import (
     Motion,
     friction_bound,
     friction_of_balls,
+    lean_of_push,
+    rebound,
+    reduced_mass,
+    restitution,
+    rigid_share,
+    rub_balls,
+    rub_cushion,
     rub_spheres,
+    slip_at_edge,
 )
 from pool_sim_ros.physics.event_driven.contact_group import ContactGroup, closing_speed
 from pool_sim_ros.physics.jit import Record, chosen_by, inlined, kernel, register

@@ -8,8 +8,8 @@ its tables, and the functions of the seam.
 from pool_sim_ros.physics.contact_time import RelativeMotion, after
 from pool_sim_ros.physics.jit import register
 from pool_sim_ros.physics.motion import ball, disc, seam
-from pool_sim_ros.physics.motion.ball_record import BALL, BallTable
-from pool_sim_ros.physics.motion.disc_record import DISC, DiscTable
+from pool_sim_ros.physics.motion.ball_record import BALL, BallTable, spheres_at_rest
+from pool_sim_ros.physics.motion.disc_record import DISC, DiscTable, discs_at_rest
 from pool_sim_ros.physics.motion.phase import MOVES, RESTS, ROLLS, SLIDES
 from pool_sim_ros.physics.motion.seam import (
     acceleration,
@@ -49,6 +49,8 @@ __all__ = [
     'DiscTable',
     'RelativeMotion',
     'acceleration',
+    'discs_at_rest',
+    'spheres_at_rest',
     'advance',
     'after',
     'catch',

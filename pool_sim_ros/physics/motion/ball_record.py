@@ -45,7 +45,7 @@ BALL = np.dtype(
     ],
     align=True,
 )
-"""The state of one ball in the event-driven engine: three cache lines."""
+"""The state of one ball in the event-driven engine: less than three cache lines."""
 
 
 class BallTable(NamedTuple):
@@ -65,7 +65,7 @@ class BallTable(NamedTuple):
     cue_ball: int  # its number; -1 for none
 
 
-def balls_at_rest(
+def spheres_at_rest(
     positions: NDArray[np.float64],
     radii: NDArray[np.float64],
     masses: NDArray[np.float64],

@@ -55,7 +55,7 @@ class DiscTable(NamedTuple):
     cue_ball: int  # its number; -1 for none
 
 
-def balls_at_rest(
+def discs_at_rest(
     positions: NDArray[np.float64],
     radii: NDArray[np.float64],
     masses: NDArray[np.float64],

@@ -200,7 +200,7 @@ def test_the_inner_rectangle_leaves_nothing_out(name):
     boundary, radius = boundary_of(name)
     without = boundary._replace(inner=np.inf)
     met = np.zeros(3)
-    for path in paths(np.random.default_rng(1), boundary, radius, 5000):
+    for path in paths(np.random.default_rng(1), boundary, radius, 8000):
         seconds, partner = first_met(boundary, path, radius)
         expected, expected_partner = first_met(without, path, radius)
         assert partner == expected_partner, path
@@ -246,7 +246,9 @@ def test_places(name):
         cut = (facing & (np.abs(height) < radius - 1e-9)).any()
         cut |= (distances(boundary.noses, points) < radius - 1e-9).any()
         inside = (0.0 <= spot).all() and (spot <= size).all()
-        assert outside == (pocket < 0 and bool(cut or not inside))
+        # Beyond the rails, in a mouth, a ball may lie: see `test_mouths`.
+        if pocket >= 0 or cut or inside:
+            assert outside == (pocket < 0 and bool(cut))
         near = np.hstack(
             [facing & (np.abs(height) <= reach), distances(boundary.noses, points) <= reach]
         )

@@ -38,7 +38,7 @@ from pool_sim_ros.physics.motion import (
     time_to_resting_ball,
     velocity_at,
 )
-from pool_sim_ros.physics.motion.ball_record import balls_at_rest
+from pool_sim_ros.physics.motion.ball_record import spheres_at_rest
 
 RADIUS, SLIDE, ROLL_LOSS, SPIN_LOSS = 0.03, 2.0, 0.1, 10.0
 TABLE = BallTable(
@@ -146,7 +146,7 @@ def written(balls, table, segments):
 def one_ball(boundary=TABLE.boundary):
     one = np.ones(1)
     at = np.array([[1.0, 0.5]])
-    return balls_at_rest(at, RADIUS * one, 0.17 * one, one == 1.0, boundary)
+    return spheres_at_rest(at, RADIUS * one, 0.17 * one, one == 1.0, boundary)
 
 
 def seen(balls):
@@ -349,7 +349,7 @@ def test_on_a_path_that_is_straight_both_ways_give_one_answer():
     """Of what a rolling ball meets: along the line, and by the curved path."""
     rng = np.random.default_rng(5)
     met = 0
-    for _ in range(1000):
+    for _ in range(2500):
         balls = one_ball()
         v = rng.normal(0.0, 0.4, 2)
         begin(balls, TABLE, v, (-v[1] / RADIUS, v[0] / RADIUS, 0.0), 0.0)

@@ -127,14 +127,15 @@ def test_no_ball_is_left_out_that_the_path_touches():
             for k in range(count)
             if np.isfinite(rows[0, k])
         ]
-        assert seconds == min(each)
+        # To the last bits: the one after the other looks less and less far ahead.
+        assert seconds == pytest.approx(min(each), rel=1e-12)
     assert met > 800 and near > 500
 
 
 def test_one_by_one_gives_what_all_at_once_does():
     rng = np.random.default_rng(3)
     met = 0
-    for _ in range(500):
+    for _ in range(3000):
         path, count = random_path(rng), 8
         balls = np.zeros(count, BALL)
         balls['x'], balls['y'] = rng.uniform(-0.5, 1.5, (2, count))
@@ -145,7 +146,8 @@ def test_one_by_one_gives_what_all_at_once_does():
         for k in listed[:used]:
             rows[:3, k] = balls[k]['x'], balls[k]['y'], RADIUS
         at_once = first_at_once(path, RADIUS, path.lasts, rows)
-        assert first_one_by_one(path, RADIUS, path.lasts, balls, listed, used) == at_once
+        seconds, ball = first_one_by_one(path, RADIUS, path.lasts, balls, listed, used)
+        assert ball == at_once[1] and seconds == pytest.approx(at_once[0], rel=1e-12)
         met += at_once[1] >= 0
     assert met > 50
 

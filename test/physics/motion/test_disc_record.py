@@ -1,7 +1,7 @@
 import numpy as np
 
 from pool_sim_ros.physics.motion import DISC, RESTS
-from pool_sim_ros.physics.motion.disc_record import balls_at_rest
+from pool_sim_ros.physics.motion.disc_record import discs_at_rest
 
 
 def test_a_disc_takes_two_cache_lines_and_others_need_only_the_first():
@@ -11,7 +11,7 @@ def test_a_disc_takes_two_cache_lines_and_others_need_only_the_first():
 
 
 def test_at_first_all_rest_where_they_lie():
-    found = balls_at_rest(
+    found = discs_at_rest(
         np.array([(0.2, 0.3), (0.5, 0.6)]),
         np.array([0.03, 0.05]),
         np.array([0.25, 0.5]),
