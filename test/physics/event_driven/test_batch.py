@@ -22,7 +22,7 @@ def test_some_shots_are_played_until_there_is_no_room_for_their_events(room):
     done, filled, _ = play_some(
         state,
         start_of(state),
-        (velocities, np.empty((4, 0, 2))),
+        (velocities, np.empty((4, 0, 3)), np.empty((4, 0, 2))),
         (0, 0),
         NO_LIMITS,
         (ends_of(outcomes), np.empty((11, 2)), events),
@@ -42,7 +42,7 @@ def test_without_room_for_events_all_shots_are_played():
     assert play_some(
         state,
         start_of(state),
-        (in_rows([(-0.1, 0.0), (-4.0, 0.0)]), np.empty((2, 0, 2))),
+        (in_rows([(-0.1, 0.0), (-4.0, 0.0)]), np.empty((2, 0, 3)), np.empty((2, 0, 2))),
         (0, 0),
         NO_LIMITS,
         (ends_of(outcomes), np.empty((11, 2)), np.empty(0, EVENT)),
@@ -57,7 +57,7 @@ def test_a_shot_that_outgrows_the_log_is_not_taken():
     done, filled, _ = play_some(
         state,
         start_of(state),
-        (in_rows([(-0.1, 0.0), (-4.0, 0.0)]), np.empty((2, 0, 2))),
+        (in_rows([(-0.1, 0.0), (-4.0, 0.0)]), np.empty((2, 0, 3)), np.empty((2, 0, 2))),
         (0, 0),
         NO_LIMITS,
         (ends_of(outcomes), np.empty((11, 2)), np.empty(1000, EVENT)),
