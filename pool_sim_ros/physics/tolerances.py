@@ -143,6 +143,10 @@ PROXIMITY = 1e-6
 MAX_PROXIMAL_STEPS = 200
 """Proximal steps; a few where contacts do not outnumber the freedoms."""
 
+SOLVABLE = 1e-4
+"""Change in the last of these steps, beside the impulses, up to which they are near an end; where
+there is none they grow by as much each time: by one part in as many as there are steps."""
+
 MAX_PIVOTS = 500
 """Contacts that may begin to push while a few are found that do: about as many as there are."""
 
@@ -165,6 +169,9 @@ UNIT_LENGTH = 1e-12
 
 ROOT_PRECISION = 4e-16
 """Change of an angle in rad at which the end of sticking is found: about its rounding."""
+
+NO_CLOSING = 1e-30
+"""Speed in m/s at which nothing meets a cushion: beside any spin no ratio overflows."""
 
 CUSHION_STEPS = 200
 """Steps of the coarser of two integrations along the push of a cushion (Mathavan's model)."""

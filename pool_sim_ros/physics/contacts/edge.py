@@ -24,6 +24,7 @@ from pool_sim_ros.physics.contacts.spheres import Spin, Velocity
 from pool_sim_ros.physics.contacts.stronge import compliant_share
 from pool_sim_ros.physics.jit import inlined, kernel
 from pool_sim_ros.physics.law_names import CUSHION_MODELS
+from pool_sim_ros.physics.tolerances import NO_CLOSING
 
 HAN, IMPULSE, STRONGE, MATHAVAN = range(len(CUSHION_MODELS))
 """The models by number, as kernels have them."""
@@ -122,7 +123,7 @@ def meet_edge(
     nose_radius : float
         Of a round nose, m; 0 for a straight cushion.
     """
-    if v[0] <= 0.0:
+    if not v[0] > NO_CLOSING:
         return v, w
     lean = lean_of(law, radius, nose_radius)
     if law.model == MATHAVAN:

@@ -20,6 +20,7 @@ from pool_sim_ros.physics.tolerances import (
     MAX_PIVOTS,
     MAX_PROXIMAL_STEPS,
     PROXIMITY,
+    SOLVABLE,
 )
 
 MAX_DIRECT = 64
@@ -51,13 +52,17 @@ def new_problem() -> Problem:
 
 
 @kernel
-def solve(problem: Problem, count: int) -> None:
-    """Find x, in row FOUND, for a problem of `count` unknowns whose A and b are set."""
+def solve(problem: Problem, count: int) -> bool:
+    """Find x, in row FOUND, for a problem of `count` unknowns whose A and b are set.
+
+    Returns whether there is one: what is wedged cannot part.
+    """
     given, found = problem.vectors[GIVEN], problem.vectors[FOUND]
     shifted, before = problem.vectors[SHIFTED], problem.vectors[BEFORE]
     for i in range(count):
         found[i] = 0.0
         problem.active[i] = 0
+    change = largest = 0.0
     for _ in range(MAX_PROXIMAL_STEPS):
         for i in range(count):
             before[i] = found[i]
@@ -68,7 +73,8 @@ def solve(problem: Problem, count: int) -> None:
             change = max(change, abs(found[i] - before[i]) * problem.matrix[i, i])
             largest = max(largest, found[i] * problem.matrix[i, i])
         if change <= IMPULSE_PRECISION * largest:
-            break
+            return True
+    return change <= SOLVABLE * largest
 
 
 @kernel

@@ -126,7 +126,11 @@ def solve_directly(balls: NDArray[np.void], group: ContactGroup, count: int) -> 
         problem.vectors[GIVEN, c] = one.closing + one.separation
         for k in range(count):
             problem.matrix[c, k] = compliance_of(balls, one, group.contacts[k])
-    solve(problem, count)
+    if not solve(problem, count):
+        # Wedged: what cannot part does not press on at least.
+        for c in range(count):
+            problem.vectors[GIVEN, c] = group.contacts[c].closing
+        solve(problem, count)
     for c in range(count):
         one = group.contacts[c]
         found = problem.vectors[FOUND, c]
