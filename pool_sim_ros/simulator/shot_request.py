@@ -143,7 +143,8 @@ def parse_request(text: str) -> Request:
     if re.fullmatch(r'[+-]?[0-9]+', text):
         return _report_shot(None, text.lstrip('+'))
     try:
-        fields = read_json_object(text)
+        # Any number is answered as what it is: no shot has so many digits.
+        fields = read_json_object(text, MAX_REQUEST_LENGTH)
     except ValueError as error:
         return _bad(
             f'{_quote(text)} is neither a shot number, 1 to 4, nor a JSON object: {error}', text
