@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 from enum import Enum
 
 from pool_sim_ros.me212 import SHOT_NUMBERS
+from pool_sim_ros.simulator.strict_json import read_json_object
 
 MAX_REQUEST_LENGTH = 4096
 """Characters of a request. A sensible one has at most about 250; parsing stays cheap."""
@@ -142,13 +143,12 @@ def parse_request(text: str) -> Request:
     if re.fullmatch(r'[+-]?[0-9]+', text):
         return _report_shot(None, text.lstrip('+'))
     try:
-        fields = json.loads(text, object_pairs_hook=_fields_once)
-    except _RepeatedKeyError as error:
-        return _bad(f'the key {_quote(str(error))} is given twice', text)
-    except (ValueError, RecursionError):
-        return _bad(f'{_quote(text)} is neither a shot number, 1 to 4, nor JSON', text)
-    if not isinstance(fields, dict):
-        return _bad(f'{_quote(text)} is neither a shot number, 1 to 4, nor a JSON object', text)
+        # Any number is answered as what it is: no shot has so many digits.
+        fields = read_json_object(text, MAX_REQUEST_LENGTH)
+    except ValueError as error:
+        return _bad(
+            f'{_quote(text)} is neither a shot number, 1 to 4, nor a JSON object: {error}', text
+        )
     return _parse_fields(fields, text)
 
 
@@ -173,19 +173,6 @@ def twist_request(linear: Sequence[float], angular: Sequence[float]) -> Request:
                 reason=f'{name} is {value:g}; a ball on the table has linear.x and linear.y only',
             )
     return _velocity(None, linear[0], linear[1])
-
-
-class _RepeatedKeyError(Exception):
-    pass
-
-
-def _fields_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
-    fields: dict[str, object] = {}
-    for key, value in pairs:
-        if key in fields:
-            raise _RepeatedKeyError(key)
-        fields[key] = value
-    return fields
 
 
 def _parse_fields(fields: dict[str, object], text: str) -> Request:

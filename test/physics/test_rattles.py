@@ -7,7 +7,7 @@ import pytest
 from crowds import crowded_table, strikes
 from tables import LAWS
 
-from pool_sim_ros.physics import Ball, Table, simulate, simulate_many
+from pool_sim_ros.physics import Ball, EventKind, Table, simulate, simulate_many
 
 MOST_EVENTS = 10_000
 
@@ -82,9 +82,10 @@ def pushes_of(table, velocities, until):
     for event in contacts_of(shot.events):
         normal = np.array([event['nx'], event['ny']])
         gained = 0.0
-        for ball, sign in ((event['a'], 1.0), (event['b'], -1.0)):
-            if ball == event['b'] and event['kind'] == 1:
-                continue
+        sides = [(event['a'], 1.0)]
+        if event['kind'] == EventKind.BALL_BALL:
+            sides.append((event['b'], -1.0))
+        for ball, sign in sides:
             after = shot.segments[(shot.segments['ball'] == ball)]
             at = np.flatnonzero(after['t'] == event['t'])
             if len(at) and at[0] > 0:

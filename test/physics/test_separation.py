@@ -49,9 +49,7 @@ def test_what_has_no_room_is_given_up():
     table = table_of(full)
     crammed = np.array(full)
     crammed[:10] += 0.04
-    found = separated(table, crammed)
-    if found is not None:
-        check_layout(table, found)
+    assert separated(table, crammed) is None
     small = dataclasses.replace(table, balls=table.balls[:1], length=0.1, width=0.1)
     assert separated(small, np.array([(0.2, 0.0)])) == pytest.approx(np.array([(0.05, 0.05)]))
 

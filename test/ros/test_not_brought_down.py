@@ -87,6 +87,7 @@ def assert_answered_once(observer):
     assert accepted == over
 
 
+@pytest.mark.soak
 def test_a_flood_of_commands(ros):
     with node_process(report_integrator='event', **FAST):
         observer = Observer(ros).wait_for_match()

@@ -263,6 +263,7 @@ def test_it_says_what_is_wrong_and_comes_back_by_itself(domain, show):
                 page.wait('page.state.moving')
 
 
+@pytest.mark.soak
 def test_a_cold_start_says_that_it_compiles_and_a_shot_waits_visibly(
     domain, show, tmp_path, monkeypatch
 ):

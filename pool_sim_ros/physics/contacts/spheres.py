@@ -111,7 +111,8 @@ def friction_of_balls(
     slip = math.sqrt(along * along + up * up)
     most = friction_coefficient(law, slip) * bound
     share = NO_SLIP_SHARE * mass
-    if most < share * slip:
+    # A slip whose square is no number any more is none.
+    if slip > 0.0 and most < share * slip:
         share = most / slip
     return -share * along, -share * up
 

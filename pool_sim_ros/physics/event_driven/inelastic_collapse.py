@@ -69,11 +69,17 @@ def count_round(ball: Record, now: float) -> None:
 
 
 @inlined
+def presses_of(ball: Record, now: float) -> int:
+    """Return how many weak contacts a ball has had over a while up to now."""
+    return ball.presses if now - ball.last_contact_time < PRESS_WINDOW else 0
+
+
+@inlined
 def is_pressed(balls: NDArray[np.void], a: int, b: int, now: float) -> bool:
     """Return whether a contact has been weak so often that something presses its two sides."""
-    presses = balls[a].presses if now - balls[a].last_contact_time < PRESS_WINDOW else 0
-    if b >= 0 and now - balls[b].last_contact_time < PRESS_WINDOW:
-        presses = max(presses, balls[b].presses)
+    presses = presses_of(balls[a], now)
+    if b >= 0:
+        presses = max(presses, presses_of(balls[b], now))
     return presses > STEADY_PRESSES
 
 
@@ -149,15 +155,15 @@ def disc_separation(
     since = now - max(balls[a].last_contact_time, balls[b].last_contact_time)
     presses = 0
     if since < PRESS_WINDOW:
-        presses = max(balls[a].presses, balls[b].presses) + 1
-        if presses > MAX_PRESSES:
-            presses -= SETTLE_EVERY
-    least = least_when_pressed(presses)
-    if presses > STEADY_PRESSES and closing <= PRESS_MARGIN * least:
-        # What lies still presses nothing; and now and then two that move may just go on together.
-        if speeds[1] <= V_MIN * V_MIN or presses % SETTLE_EVERY == 0:
-            least = V_ROUNDING
-        return least, MAX_REPEATS, presses
+        presses = max(presses_of(balls[a], now), presses_of(balls[b], now)) + 1
+    if presses > MAX_PRESSES:
+        presses -= SETTLE_EVERY
+    if presses > STEADY_PRESSES:
+        least = least_when_pressed(presses)
+        if closing <= PRESS_MARGIN * least:
+            # What lies still presses nothing; and two that move may just go on together.
+            settles = speeds[1] <= V_MIN * V_MIN or presses % SETTLE_EVERY == 0
+            return V_ROUNDING if settles else least, MAX_REPEATS, presses
     if closing > V_MIN:
         return parting, -1, -1
     repeats = 0

@@ -198,11 +198,9 @@ def move_as_one(balls: NDArray[np.void], group: ContactGroup, count: int, member
     vx, vy = px / mass, py / mass
     for c in range(count):
         contact = group.contacts[c]
-        inverse_mass = balls[contact.a].inverse_mass
-        if contact.b >= 0:
-            inverse_mass += balls[contact.b].inverse_mass
         closes = contact.closing > CLOSING_ROUNDING
-        contact.impulse = contact.closing / inverse_mass if closes else 0.0
+        compliance = compliance_of(balls, contact, contact)
+        contact.impulse = contact.closing / compliance if closes else 0.0
         into = vx * contact.nx + vy * contact.ny
         if contact.b < 0 and into > 0.0:
             vx -= into * contact.nx

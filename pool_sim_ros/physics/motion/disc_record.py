@@ -34,7 +34,8 @@ DISC = np.dtype(
         ('previous', 'i4'),  # the ball before it in its cell; -1 for none
         ('repeats', 'i2'),  # weak contacts in quick succession, up to now
         ('presses', 'i2'),  # the same over a while: something presses it to others
-        ('rounds', 'i8'),  # contacts in the rattle that `last_contact_time` belongs to
+        # Contacts in the rattle that `last_contact_time` belongs to; wide, so nothing is padded.
+        ('rounds', 'i8'),
     ],
     align=True,
 )

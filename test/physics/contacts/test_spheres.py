@@ -5,7 +5,7 @@ import math
 import naive_spin
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from pool_sim_ros.physics.contacts import (
@@ -181,6 +181,7 @@ SPINS = st.sampled_from([0.0, 1e-300, -1e-12, 1.0, -1e4, 1e9])
     st.booleans(),
     st.booleans(),
 )
+@example(((0.0, 0.0), (0.0, 0.0, 0.0)), ((0.0, 1e-300), (0.0, 0.0, 0.0)), 0.05, 0.0, False, False)
 def test_nothing_is_nan(one, other, mu, e, alciatore, by_restitution):
     law = BallLaw(mu, alciatore, by_restitution)
     for normal in ((1.0, 0.0), (-0.6, 0.8)):
