@@ -191,13 +191,13 @@ def ball_separation(
         parting = restitution(table, balls[a].is_cue, balls[b].is_cue) * closing
         repeats = max(repeats, balls[b].repeats)
         last_contact_time = max(last_contact_time, balls[b].last_contact_time)
-    if closing > LEAST_PARTING:
-        return parting, -1, -1
     again = now - last_contact_time < PRESS_WINDOW
     repeats = min(repeats + 1, MOST_HELD) if again else 0
-    least = min(LEAST_PARTING, V_ROUNDING * COLLAPSE_GROWTH ** min(repeats, MAX_REPEATS))
     # A ball that spins fast is pressed for long: this must end within few contacts.
-    least *= HELD_GROWTH ** max(repeats - STEADY_HELD, 0)
+    growth = HELD_GROWTH ** max(repeats - STEADY_HELD, 0)
+    if closing > PRESS_MARGIN * growth * LEAST_PARTING:
+        return parting, -1, -1
+    least = min(LEAST_PARTING, V_ROUNDING * COLLAPSE_GROWTH ** min(repeats, MAX_REPEATS)) * growth
     return max(parting, least), repeats, 0
 
 
