@@ -8,11 +8,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics.jit import inlined, kernel
-from pool_sim_ros.physics.tolerances import MAX_TURN_STEPS, TURN_ERROR, UNIT_QUATERNION
+from pool_sim_ros.physics.tolerances import MAX_TURN_STEPS, SMALL_TURN, TURN_ERROR, UNIT_QUATERNION
 from pool_sim_ros.physics.validation import array
 
 Quaternion = tuple[float, float, float, float]
 Vector = tuple[float, float, float]
+
+SINE_SERIES = 1.0 / 48.0
+"""The next term of ``sin(a / 2) / a = 1/2 - a^2 / 48 + ...``."""
+
+MAGNUS_TWIST = 1.0 / 12.0
+"""What the second term of Magnus's series has beside ``h^3 change x w``."""
 
 MAGNUS_ERROR = 1.0 / 720.0
 """What the error of a step is at most, beside ``h^5 |change|^2 |w|``: the next terms of Magnus's
@@ -56,7 +62,7 @@ def turn_by(q: Quaternion, x: float, y: float, z: float) -> Quaternion:
     angle = math.sqrt(squared)
     half = 0.5 * angle
     # sin(a/2) / a, by its series where that is nothing divided by nothing.
-    part = math.sin(half) / angle if angle > 1e-4 else 0.5 - squared / 48.0
+    part = math.sin(half) / angle if angle > SMALL_TURN else 0.5 - SINE_SERIES * squared
     px, py, pz, pw = times((part * x, part * y, part * z, math.cos(half)), q)
     inverse = 1.0 / math.sqrt(px * px + py * py + pz * pz + pw * pw)
     return px * inverse, py * inverse, pz * inverse, pw * inverse
@@ -76,10 +82,10 @@ def turn_evenly(q: Quaternion, w: Vector, change: Vector, lasts: float) -> Quate
     steps = 1
     if across > 0.0:
         size = math.sqrt(ax * ax + ay * ay + az * az)
-        fifth = MAGNUS_ERROR * lasts**5 * size * across
+        fifth = MAGNUS_ERROR * lasts**4 * lasts * size * across
         steps = min(1 + int(math.sqrt(math.sqrt(fifth / TURN_ERROR))), MAX_TURN_STEPS)
     h = lasts / steps
-    twist = h * h * h / 12.0
+    twist = MAGNUS_TWIST * h * h * h
     for step in range(steps):
         middle = (step + 0.5) * h
         # change x w is the same at every time.

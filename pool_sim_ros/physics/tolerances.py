@@ -120,6 +120,9 @@ TURN_ERROR = 1e-10
 UNIT_QUATERNION = 1e-6
 """By how much the length of a unit quaternion may be off that is given."""
 
+SMALL_TURN = 1e-4
+"""Angle in rad below which a sine is its series: the next term is below rounding."""
+
 MAX_TURN_STEPS = 1_000_000
 """Steps in which one stretch is integrated."""
 

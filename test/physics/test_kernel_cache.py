@@ -55,7 +55,7 @@ def test_the_second_process_loads_what_the_first_compiled(package):
     [
         ('tolerances.py', *OVERLAP_ALLOWED),
         ('validation.py', 'radii[i], OVERLAP)', 'radii[i], 1e-3)'),
-        ('boundary.py', 'least = radius - tolerance', 'least = radius - 1e-3'),
+        ('boundary/rectangle.py', 'least = radius - tolerance', 'least = radius - 1e-3'),
     ],
     ids=['a constant', 'the kernel itself', 'what it calls'],
 )

@@ -11,6 +11,8 @@ from pool_sim_ros.physics.log import (
     FIRST_HIT,
     N_EVENTS,
     N_SEGMENTS,
+    POCKETED,
+    ROLL,
     SEGMENT,
     STOP,
     EventKind,
@@ -114,7 +116,9 @@ def test_kinds_and_fields_are_those_that_are_documented():
         ('BALL_BALL', 0),
         ('CUSHION', 1),
         ('STOP', 2),
+        ('POCKETED', 3),
+        ('ROLL', 4),
     ]
-    assert (BALL_BALL, CUSHION, STOP) == (0, 1, 2)
+    assert (BALL_BALL, CUSHION, STOP, POCKETED, ROLL) == (0, 1, 2, 3, 4)
     assert EVENT.names == ('t', 'kind', 'a', 'b', 'x', 'y', 'nx', 'ny', 'speed')
     assert SEGMENT.names == ('ball', 't', 'x', 'y', 'vx', 'vy', 'ax', 'ay')

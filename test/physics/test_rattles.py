@@ -9,7 +9,9 @@ from tables import LAWS
 
 from pool_sim_ros.physics import Ball, EventKind, Table, simulate, simulate_many
 
-MOST_EVENTS = 10_000
+MOST_EVENTS = {1.0: 10_000, 1e2: 10_000, 1e6: 100_000}
+"""Of a crowded shot, by the largest ratio of masses. At 1e6 a light ball, elastic, is thrown back
+some hundred times by what is heavy and slow, and each time a chain of light ones collapses."""
 
 
 def contacts_of(events):
@@ -26,7 +28,7 @@ def check_crowds(seed, tables, shots, law, mass_ratio):
             table,
             strikes(rng, table, shots),
             until=3.0,
-            max_events=MOST_EVENTS,
+            max_events=MOST_EVENTS[mass_ratio],
             errors='mark',
             events=True,
         )
@@ -71,7 +73,7 @@ def test_a_line_of_eight_that_two_pairs_kept_busy_for_ever():
     )
     rng = np.random.default_rng(3)
     velocities = np.column_stack([-rng.uniform(1.0, 5.0, 500), rng.normal(0.0, 0.5, 500)])
-    outcomes = simulate_many(table, velocities, until=3.0, max_events=MOST_EVENTS)
+    outcomes = simulate_many(table, velocities, until=3.0)
     assert outcomes.event_counts.max() < 1000
 
 

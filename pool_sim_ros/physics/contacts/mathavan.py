@@ -18,8 +18,9 @@ from __future__ import annotations
 
 import math
 
-from pool_sim_ros.physics.contacts.spheres import SPIN_PER_PUSH, Spin, Velocity
+from pool_sim_ros.physics.contacts.spheres import Spin, Velocity
 from pool_sim_ros.physics.jit import inlined, kernel
+from pool_sim_ros.physics.solid_sphere import SPIN_PER_PUSH
 from pool_sim_ros.physics.tolerances import CUSHION_STEPS
 
 Pair = tuple[float, float]

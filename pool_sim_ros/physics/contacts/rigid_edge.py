@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import math
 
-from pool_sim_ros.physics.contacts.spheres import NO_SLIP_SHARE, SPIN_PER_PUSH, Spin, Velocity
+from pool_sim_ros.physics.contacts.spheres import Spin, Velocity
 from pool_sim_ros.physics.jit import inlined
+from pool_sim_ros.physics.solid_sphere import NO_SLIP_SHARE, SPIN_PER_PUSH
 
 Lean = tuple[float, float]
 

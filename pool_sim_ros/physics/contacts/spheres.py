@@ -11,17 +11,12 @@ from typing import NamedTuple
 
 from pool_sim_ros.physics.contacts.discs import reduced_mass
 from pool_sim_ros.physics.jit import inlined
+from pool_sim_ros.physics.solid_sphere import NO_SLIP_SHARE, SPIN_PER_PUSH
 
 Velocity = tuple[float, float]
 Spin = tuple[float, float, float]
 Motion = tuple[Velocity, Spin]
 Friction = tuple[float, float]
-
-SPIN_PER_PUSH = 5.0 / 2.0
-"""m R^2 / I of a sphere: a push of 1 m/s across its surface changes R w by so much, m/s."""
-
-NO_SLIP_SHARE = 2.0 / 7.0
-"""1 / (1 + m R^2 / I): the part of a slip that, as a push, stops the slip of a sphere."""
 
 ALCIATORE_FLOOR = 9.951e-3
 ALCIATORE_RANGE = 0.108

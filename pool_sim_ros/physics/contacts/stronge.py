@@ -12,8 +12,8 @@ from __future__ import annotations
 
 import math
 
-from pool_sim_ros.physics.contacts.spheres import NO_SLIP_SHARE, SPIN_PER_PUSH
 from pool_sim_ros.physics.jit import inlined, kernel
+from pool_sim_ros.physics.solid_sphere import NO_SLIP_SHARE, SPIN_PER_PUSH
 from pool_sim_ros.physics.tolerances import MAX_STEPS, ROOT_PRECISION
 
 FREQUENCY_RATIO = 1.8

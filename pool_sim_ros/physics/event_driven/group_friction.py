@@ -25,6 +25,7 @@ from pool_sim_ros.physics.contacts import (
 from pool_sim_ros.physics.event_driven.contact_group import ContactGroup, closing_speed
 from pool_sim_ros.physics.jit import Record, chosen_by, inlined, kernel, register
 from pool_sim_ros.physics.motion import BallTable, DiscTable
+from pool_sim_ros.physics.solid_sphere import INERTIA
 from pool_sim_ros.physics.tolerances import V_ROUNDING
 
 
@@ -196,7 +197,7 @@ def most_without_gain(
     The energy is quadratic in that part: ``first s + second s^2`` more than before.
     """
     first, second = 0.0, 0.0
-    inertia = 0.4 * table.radius * table.radius
+    inertia = INERTIA * table.radius * table.radius
     for m in range(members):
         i = group.members[m]
         member, ball = group.by_ball[i], balls[i]

@@ -32,6 +32,7 @@ from pool_sim_ros.physics.motion.straight_path import (
     first_on_path,
     time_to_cover,
 )
+from pool_sim_ros.physics.solid_sphere import NO_SLIP_SHARE, ROLLING_SHARE, SPIN_PER_PUSH
 from pool_sim_ros.physics.tolerances import LONGEST
 
 
@@ -70,7 +71,7 @@ def advance(ball: Record, table: BallTable, now: float) -> tuple[float, float]:
     ball.vx += elapsed * ball.ax
     ball.vy += elapsed * ball.ay
     if ball.phase == SLIDES:
-        turn = 2.5 / table.radius * elapsed
+        turn = SPIN_PER_PUSH / table.radius * elapsed
         ball.wx += turn * ball.ay
         ball.wy -= turn * ball.ax
     elif ball.phase == ROLLS:
@@ -104,8 +105,8 @@ def end_phase(ball: Record, table: BallTable, now: float) -> int:
         # Exactly what is left when the slip is gone: v - 2/7 of the slip.
         radius = table.radius
         ball.vx, ball.vy = (
-            (5.0 * ball.vx + 2.0 * radius * ball.wy) / 7.0,
-            (5.0 * ball.vy - 2.0 * radius * ball.wx) / 7.0,
+            ROLLING_SHARE * ball.vx + NO_SLIP_SHARE * radius * ball.wy,
+            ROLLING_SHARE * ball.vy - NO_SLIP_SHARE * radius * ball.wx,
         )
         begin_to_roll(ball, table)
         if ball.phase == ROLLS:
@@ -285,7 +286,7 @@ def log_spin(segment: Record, ball: Record, table: BallTable) -> None:
     """Write down the spin at the start of a segment, and how it changes."""
     segment.wx, segment.wy, segment.wz = ball.wx, ball.wy, ball.wz
     if ball.phase == SLIDES:
-        turn = 2.5 / table.radius
+        turn = SPIN_PER_PUSH / table.radius
         segment.turn_x, segment.turn_y = turn * ball.ay, -turn * ball.ax
     elif ball.phase == ROLLS:
         segment.turn_x, segment.turn_y = -ball.ay / table.radius, ball.ax / table.radius

@@ -8,6 +8,7 @@ import numpy as np
 
 from pool_sim_ros.physics.jit import Record, inlined
 from pool_sim_ros.physics.motion.phase import RESTS, ROLLS, SLIDES
+from pool_sim_ros.physics.solid_sphere import NO_SLIP_SHARE
 from pool_sim_ros.physics.tolerances import SHORTEST_PHASE, SLIP_ROUNDING
 
 
@@ -26,10 +27,11 @@ def begin_phase(ball: Record, table: Any) -> None:
     slip = np.sqrt(slip_x * slip_x + slip_y * slip_y)
     shortest = SHORTEST_PHASE * max(ball.since, 1.0)
     scale = abs(ball.vx) + abs(ball.vy) + radius * (abs(ball.wx) + abs(ball.wy))
-    if slip > SLIP_ROUNDING * scale and 2.0 * slip > 7.0 * table.slide * shortest:
+    lasts = NO_SLIP_SHARE * slip / table.slide
+    if slip > SLIP_ROUNDING * scale and lasts > shortest:
         ball.phase = SLIDES
         ball.ax, ball.ay = -table.slide * (slip_x / slip), -table.slide * (slip_y / slip)
-        ball.phase_end = ball.since + 2.0 * slip / (7.0 * table.slide)
+        ball.phase_end = ball.since + lasts
         return
     begin_to_roll(ball, table)
 

@@ -65,7 +65,8 @@ def capsule_of(path: CurvedPath, lasts: float) -> Capsule:
     if (path.vx * ux + path.vy * uy < 0.0) | (end_vx * ux + end_vy * uy < 0.0):
         # It turns back, and so leaves its chord beyond an end.
         squared = path.ax * path.ax + path.ay * path.ay
-    sag = 0.125 * lasts * lasts * np.sqrt(squared)
+    half = 0.5 * lasts
+    sag = 0.5 * half * half * np.sqrt(squared)
     return Capsule(ux, uy, length, sag)
 
 

@@ -23,7 +23,7 @@ def test_only_the_parts_that_are_given_are_played(wanted, shared):
     play_parts(
         table,
         table.balls_at_rest,
-        (in_rows(velocities), np.empty((10, 0, 2))),
+        (in_rows(velocities), np.empty((10, 0, 3)), np.empty((10, 0, 2))),
         NO_LIMITS,
         ends,
         iter(parts),

@@ -4,7 +4,7 @@ import sys
 import threading
 
 import numpy as np
-from batches import NO_LIMITS
+from batches import NO_LIMITS, NO_SPINS
 from benchmark.workloads import dense_table
 
 from pool_sim_ros.physics import report_table, simulate
@@ -17,20 +17,20 @@ def test_a_work_area_makes_room_for_long_shots():
     velocities = np.random.default_rng(1).normal(size=(60, 2))
     area = WorkArea(table)
     for _ in range(2):
-        shot = area.play(velocities, None, NO_LIMITS)
+        shot = area.play(velocities, NO_SPINS, None, NO_LIMITS)
         assert shot.n_events > FIRST_ROOM + 60
         assert len(shot.events) == shot.n_events
         assert shot.events.tobytes() == simulate(table, velocities).events.tobytes()
-    short = area.play(np.zeros((1, 2)), None, NO_LIMITS)
+    short = area.play(np.zeros((1, 2)), NO_SPINS, None, NO_LIMITS)
     assert short.n_events == 0 and short.events.base.nbytes == 0
 
 
 def test_what_a_work_area_returned_stays():
     table = report_table()
     area = WorkArea(table)
-    first = area.play(np.array([(-4.0, 0.0)]), None, NO_LIMITS)
+    first = area.play(np.array([(-4.0, 0.0)]), NO_SPINS, None, NO_LIMITS)
     kept = [array.copy() for array in (first.events, first.segments, first.final_positions)]
-    area.play(np.array([(3.0, 1.0)]), None, NO_LIMITS)
+    area.play(np.array([(3.0, 1.0)]), NO_SPINS, None, NO_LIMITS)
     for array, copy in zip(
         (first.events, first.segments, first.final_positions), kept, strict=True
     ):
