@@ -25,7 +25,7 @@ def shots_of(kind, numbers, count):
 
 @pytest.fixture(scope='module')
 def shots():
-    return [shot for kind in KINDS for shot in shots_of(kind, range(4), 3)]
+    return [shot for kind in KINDS for shot in shots_of(kind, range(6), 3)]
 
 
 def own(shot, ball):

@@ -1,4 +1,4 @@
-"""Balls that spin: a mirrored table gives the mirrored shot; the order of the balls is no matter."""
+"""Balls that spin: a mirrored table has the mirrored shot; the order of the balls is no matter."""
 
 import dataclasses
 import zlib
