@@ -50,7 +50,7 @@ help:
 	@echo 'make play    start the node and a page in the browser to play on it; Ctrl-C ends both; PORT=8081 takes another port'
 	@echo 'make check   format, types, lint and imports: some seconds'
 	@echo 'make test    the checks and the test suite, with what it covers'
-	@echo 'make soak    what takes minutes: long runs of the node, two million shots looked at'
+	@echo 'make soak    what takes minutes: long runs of the node, nine million shots looked at'
 	@echo 'make oldest  the physics on Python 3.10 with the oldest numpy and numba, where 3.10 is there'
 	@echo 'make bench   run the benchmarks'
 	@echo 'make lock    write constraints/ anew, with the newest versions'
