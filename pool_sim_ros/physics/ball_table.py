@@ -16,7 +16,7 @@ from pool_sim_ros.physics.law_names import (
 )
 from pool_sim_ros.physics.motion import BallTable
 from pool_sim_ros.physics.tolerances import MAX_FRICTION, MIN_DECELERATION
-from pool_sim_ros.physics.validation import number
+from pool_sim_ros.physics.validation import number, shown
 
 if TYPE_CHECKING:
     from pool_sim_ros.physics.table import Table
@@ -62,7 +62,9 @@ def checked_fields(table: Table) -> dict[str, Any]:
     number_of('friction_bound', table.friction_bound, FRICTION_BOUNDS)
     check_radii('pockets', table.pockets)
     if table.cushions is not None and not isinstance(table.cushions, Cushions):
-        raise ValueError(f'cushions: {table.cushions!r} must be Cushions(segments, noses) or None')
+        raise ValueError(
+            f'cushions: {shown(table.cushions)} must be Cushions(segments, noses) or None'
+        )
     if len(table.pockets) and table.cushions is None:
         raise ValueError('pockets: a table with pockets needs cushions that leave room for them')
     return fields

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from pool_sim_ros.physics.validation import number, numbers
+from pool_sim_ros.physics.validation import number, numbers, shown
 
 MASSES = (1e-9, 1e9)
 RADII = (1e-6, 1e3)
@@ -59,13 +59,13 @@ def checked_balls(balls: Iterable[Ball]) -> tuple[Ball, ...]:
     try:
         balls = tuple(balls)
     except TypeError:
-        raise ValueError(f'balls: {balls!r} is not a sequence of Ball') from None
+        raise ValueError(f'balls: {shown(balls)} is not a sequence of Ball') from None
     if not balls:
         raise ValueError('balls: there are none; a table needs at least one ball')
     seen: dict[str, int] = {}
     for index, ball in enumerate(balls):
         if not isinstance(ball, Ball):
-            raise ValueError(f'balls[{index}]: {ball!r} is not a Ball')
+            raise ValueError(f'balls[{index}]: {shown(ball)} is not a Ball')
         if ball.label in seen:
             raise ValueError(
                 f'balls[{index}]: label {ball.label!r} is already that of balls[{seen[ball.label]}]'

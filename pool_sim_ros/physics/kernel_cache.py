@@ -12,6 +12,9 @@ import hashlib
 import logging
 import pickle
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from importlib.util import cache_from_source
 from pathlib import Path
@@ -70,12 +73,14 @@ class KernelCache:
             name = self._file_name(signature, target_context.codegen())
             content = None if name is None else _files(_key()).read(name)
             if content is None:
+                tell_of_compiling(signature)
                 return None
             from numba.core.compiler import CompileResult
 
             return CompileResult._rebuild(target_context, *pickle.loads(content))
         except Exception:  # whatever it is: compiling it again is always right
             LOG.debug('%s is compiled again', self._name, exc_info=True)
+            tell_of_compiling(signature)
             return None
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
@@ -117,6 +122,33 @@ def named_tuples(type_: Any) -> list[type]:
     """Return the classes of all named tuples in a type of numba, in order."""
     own = [type_.instance_class] if hasattr(type_, 'instance_class') else []
     return own + [kind for part in getattr(type_, 'types', ()) for kind in named_tuples(part)]
+
+
+def tell_of_compiling(signature: Any) -> None:
+    """Say in one line that something is compiled now for which somebody has to wait.
+
+    A named tuple among the arguments knows it: that of balls that spin. Discs are compiled in
+    silence, as they always were.
+    """
+    for part in getattr(signature, 'args', signature):
+        for kind in named_tuples(part):
+            notice = getattr(kind, 'compile_notice', None)
+            if notice is not None and not getattr(_quiet, 'on', False):
+                LOG.warning('pool_sim_ros compiles %s', notice())
+                return
+
+
+@contextmanager
+def silence() -> Iterator[None]:
+    """Let this thread compile without a word."""
+    before, _quiet.on = getattr(_quiet, 'on', False), True
+    try:
+        yield
+    finally:
+        _quiet.on = before
+
+
+_quiet = threading.local()
 
 
 def tell_once(reason: str) -> None:

@@ -78,7 +78,8 @@ class Outcomes(NamedTuple):
     durations : ndarray of shape (m,)
         Time until the last ball rests, or `until`, s.
     event_counts : ndarray of shape (m,)
-        Contacts and stops.
+        All events that `Trajectory.events` has: contacts, stops, pocketed balls, slides that become
+        rolls.
     pocketed : ndarray of shape (m, n)
         Number of the pocket in which a ball is, -1 for none.
     first_hit : ndarray of shape (m,)
@@ -111,12 +112,16 @@ def new_outcomes(shots: int, balls: int, out: Outcomes | None, pockets: bool = F
     ------
     ValueError
         Where one of these has another shape or type.
+    TypeError
+        Where `out` is something else.
     """
 
     def room(name: str, shape: tuple[int, ...], dtype: type) -> NDArray[Any]:
         given = getattr(out, name, None)
         return np.empty(shape, dtype) if given is None else _checked(name, given, shape, dtype)
 
+    if out is not None and not isinstance(out, Outcomes):
+        raise TypeError(f'out: a {type(out).__name__} must be Outcomes, as `simulate_many` returns')
     given = None if out is None else out.pocketed
     shared = given is None or (isinstance(given, np.ndarray) and not given.flags.writeable)
     if pockets or not shared:

@@ -34,6 +34,9 @@ JITTER = 0.45
 """How far each ball lies from its place at most, as a part of the spacing: less than half, so that
 two neighbours never overlap."""
 
+ROUNDING = 1e-12
+"""Jitter as a part of the radius below which it is not told from rounding."""
+
 STRETCHES = 4
 """Corrections of the pitch of a rack. Each leaves a part of the error that is about jitter over
 radius, so that four reach rounding."""
@@ -205,7 +208,7 @@ def _packed(
         shifts = (np.sqrt(shares) * (np.cos(angles), np.sin(angles))).T
         scale = JITTER * spacing
     places = _spread(lattice, near, scale * shifts, 2.0 * radius + spacing)
-    while scale > 0.0 and _distances(places, near).min() < 2.0 * radius:
+    while scale > ROUNDING * radius and _distances(places, near).min() < 2.0 * radius:
         # To make up for gaps that are wide by chance, others would have to be negative.
         scale *= 0.9
         places = _spread(lattice, near, scale * shifts, 2.0 * radius + spacing)

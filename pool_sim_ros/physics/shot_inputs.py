@@ -95,6 +95,8 @@ def spins_for(table: Table, spins: ArrayLike | None, shots: int | None) -> NDArr
     if table.motion != 'ball':
         raise ValueError("spins: discs do not spin; they need a table of motion 'ball'")
     turning = array('spins', spins)
+    if shots is not None and turning.shape == (3,):
+        turning = np.broadcast_to(turning, (shots, 3))
     if turning.shape == (*lead, 3):
         turning = turning[..., np.newaxis, :]
     elif turning.shape != (*lead, n, 3):
@@ -113,17 +115,20 @@ def spins_for(table: Table, spins: ArrayLike | None, shots: int | None) -> NDArr
 
 
 def check_in_play(
-    table: Table, velocities: NDArray[np.float64], layout: NDArray[np.float64] | None
+    table: Table,
+    struck: tuple[NDArray[np.float64], NDArray[np.float64]],
+    layout: NDArray[np.float64] | None,
 ) -> None:
-    """Raise ValueError where a shot strikes a ball that lies in a pocket."""
-    places = table.positions if layout is None or not len(layout) else layout
-    for i in np.flatnonzero(np.any(velocities != 0.0, axis=-1)):
-        pocket = pocket_at(table.for_kernels.boundary, *places[i])
-        if pocket >= 0:
-            raise ValueError(
-                f'velocities: ball {table.labels[i]!r} lies in pocket {pocket}; place it on the '
-                'cloth first'
-            )
+    """Raise ValueError where a shot strikes or spins a ball that lies in a pocket."""
+    places = table.positions if layout is None else layout
+    for name, values in zip(('velocities', 'spins'), struck, strict=True):
+        for i in np.flatnonzero(np.any(values != 0.0, axis=-1)):
+            pocket = pocket_at(table.for_kernels.boundary, *places[i])
+            if pocket >= 0:
+                raise ValueError(
+                    f'{name}: {values[i].tolist()} is for ball {table.labels[i]!r}, which lies in '
+                    f'pocket {pocket}; place it on the cloth first'
+                )
 
 
 def layouts_for(
@@ -170,18 +175,18 @@ def raise_failed(
     table: Table,
     failed: int,
     shot: str,
-    velocities: NDArray[np.float64],
+    struck: tuple[NDArray[np.float64], NDArray[np.float64]],
     layout: NDArray[np.float64] | None,
     max_events: int,
 ) -> NoReturn:
-    """Say why a shot failed."""
+    """Say why a shot failed; `struck` are its velocities and spins."""
     if failed == BAD_VELOCITY:
-        check_speeds(velocities)
+        check_speeds(struck[0])
     if failed == BAD_LAYOUT:
-        if layout is not None and len(layout):
+        if layout is not None:
             name = 'positions' if shot == 'this shot' else f'positions of {shot}'
             check_layout(table, layout, name)
-        check_in_play(table, velocities, layout)
+        check_in_play(table, struck, layout)
     if failed == TOO_MANY_EVENTS:
         raise ShotTooLong(f'max_events: {shot} has more than {max_events} contacts and stops')
     if failed == RUNS_AWAY:

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pool_sim_ros.physics import kernel_cache
 from pool_sim_ros.physics import time_slice as time_slicing
 from pool_sim_ros.physics.cores import share_out
 from pool_sim_ros.physics.event_driven import play_parts, work_area
@@ -96,7 +97,7 @@ def simulate(
     else:
         shot = time_slicing.play(table, layout, moving, float(time_slice), limits, cancelled)
     if shot.failed:
-        raise_failed(table, shot.failed, 'this shot', moving, layout, limits[1])
+        raise_failed(table, shot.failed, 'this shot', (moving, turning), layout, limits[1])
     return Trajectory(
         table,
         shot.final_positions,
@@ -132,8 +133,8 @@ def simulate_many(
     table : Table
     velocities : array_like of shape (m, 2) or (m, n, 2)
         For each shot that of the cue ball alone, or of every ball, each component at most 1e6 m/s.
-    spins : array_like of shape (m, 3) or (m, n, 3), optional
-        As in `simulate`, shot by shot.
+    spins : array_like of shape (3,), (m, 3) or (m, n, 3), optional
+        As in `simulate`: that of the cue ball in all shots, or shot by shot.
     positions : array_like of shape (n, 2) or (m, n, 2), optional
         Where the balls start instead of their own places, in all shots or shot by shot, m.
     integrator, time_slice, until, max_events
@@ -174,13 +175,12 @@ def simulate_many(
     shots = len(moving)
     turning = spins_for(table, spins, shots)
     at_rest, layouts = table.balls_at_rest, np.empty((shots, 0, 2))
-    if positions is not None:
-        given = layouts_for(table, positions, shots)
-        if given.ndim == 3:
-            layouts = given
-        else:
-            check_layout(table, given)
-            at_rest = table.records_at(given)
+    given = None if positions is None else layouts_for(table, positions, shots)
+    if given is not None and given.ndim == 3:
+        layouts = given
+    elif given is not None:
+        check_layout(table, given)
+        at_rest = table.records_at(given)
     check_end(table, moving, until, integrator, time_slice)
     outcomes = new_outcomes(shots, len(table.balls), out, len(table.pockets) > 0)
     ends = Ends(
@@ -226,25 +226,32 @@ def simulate_many(
         counter.close()
     if errors == 'raise' and outcomes.failed.any():
         shot = int(np.flatnonzero(outcomes.failed)[0])
-        layout = layouts[shot]
-        raise_failed(table, outcomes.failed[shot], f'shot {shot}', moving[shot], layout, limits[1])
+        layout = layouts[shot] if len(layouts[shot]) else given
+        struck = moving[shot], turning[shot]
+        raise_failed(table, outcomes.failed[shot], f'shot {shot}', struck, layout, limits[1])
     return outcomes if store is None else with_events(outcomes, store.joined())
 
 
 def compile_kernels(table: Table) -> None:
     """Compile whatever playing a shot needs, or load what was compiled before.
 
-    The first time takes some seconds; a program that must answer at once calls this first.
+    The first time takes some seconds; a program that must answer at once calls this first. It says
+    nothing: who calls it knows.
 
     Parameters
     ----------
     table : Table
         Any of the same kind will do: how many balls it has, and its coefficients, change nothing.
+        Of one kind are tables with the same motion that all have `cushions`, or that all have none.
     """
     # What is compiled depends on types alone. Two balls at rest need neither memory nor time.
     small = replace(table, balls=table.balls[:2])
     still, layout = np.zeros((len(small.balls), 2)), np.array(small.positions)
-    for integrator in INTEGRATORS:
-        shot = simulate(small, still, positions=layout, integrator=integrator, until=0.0)
-        shot.positions(0.0)
-        simulate_many(small, still[np.newaxis], integrator=integrator, until=0.0)
+    integrators: tuple[Integrator, ...] = INTEGRATORS if table.motion == 'disc' else ('event',)
+    with kernel_cache.silence():
+        for integrator in integrators:
+            shot = simulate(small, still, positions=layout, integrator=integrator, until=0.0)
+            shot.positions(0.0)
+            simulate_many(small, still[np.newaxis], integrator=integrator, until=0.0)
+        if table.motion == 'ball':
+            shot.spins(0.0), shot.orientations(0.0)

@@ -20,6 +20,7 @@ from pool_sim_ros.physics.law_names import (
     BallFriction,
     CushionModel,
     FrictionBound,
+    number_of,
 )
 from pool_sim_ros.physics.log import SEGMENT, SPIN_SEGMENT
 from pool_sim_ros.physics.motion import BallTable, DiscTable, discs_at_rest, spheres_at_rest
@@ -37,7 +38,7 @@ GRAVITIES = (1e-6, 1e6)
 rounding error of a position stays well below `validation.OVERLAP`."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Table:
     """A table, the balls on it and the coefficients of their contacts.
 
@@ -76,7 +77,8 @@ class Table:
         What bounds the friction of two balls that spin: the normal impulse, or e times the closing
         speed, as pooltool has it.
     cushions : Cushions, optional
-        Those of a table of motion 'ball' that is no plain rectangle.
+        Those of a table of motion 'ball' that is no plain rectangle. They must leave no gap but the
+        mouths of pockets: what gets through another rolls on beyond the table.
     pockets : array_like of shape (q, 3), optional
         Centre x, y and radius of the circles in which a ball's centre is caught, m.
 
@@ -125,10 +127,9 @@ class Table:
             )
         for name in ('e_cue_ball', 'e_ball_ball', 'e_ball_cushion'):
             store(self, name, number(name, getattr(self, name), least=0.0, most=1.0))
-        if self.motion not in MOTIONS:
-            raise ValueError(f"motion: {self.motion!r} must be 'disc' or 'ball'")
+        number_of('motion', self.motion, MOTIONS)
         laws = LAWS_OF_MOTION[self.motion]
-        if self.ball_friction not in laws:
+        if not isinstance(self.ball_friction, str) or self.ball_friction not in laws:
             raise ValueError(
                 f'ball_friction: {self.ball_friction!r} is not a law of motion {self.motion!r}; it '
                 f'must be {laws[0]!r} or {laws[1]!r}'
@@ -141,6 +142,9 @@ class Table:
         else:
             ball_table.check_nothing_given(self)
         check_layout(self, self.positions, 'balls')
+
+    def __repr__(self) -> str:
+        return f'<Table {self.length:g} x {self.width:g} m, {self.motion}, {len(self.balls)} balls>'
 
     def __eq__(self, other: object) -> bool:
         return self._key == other._key if isinstance(other, Table) else NotImplemented

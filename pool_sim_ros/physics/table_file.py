@@ -13,6 +13,7 @@ import numpy as np
 from pool_sim_ros.physics.balls import Ball
 from pool_sim_ros.physics.cushions import Cushions
 from pool_sim_ros.physics.table import Table
+from pool_sim_ros.physics.validation import shown
 
 FORMAT = 'pool_sim_ros table'
 VERSION = 1
@@ -66,7 +67,7 @@ def table_of_text(text: str | bytes) -> Table:
         raise ValueError(f'it is no {FORMAT}')
     version = content.pop('version', None)
     if version != VERSION:
-        raise ValueError(f'version: {version!r} must be {VERSION}')
+        raise ValueError(f'version: {shown(version)} must be {VERSION}')
     return table_from_fields(content)
 
 
@@ -88,7 +89,7 @@ def table_from_fields(content: dict[str, Any]) -> Table:
     """Return the table of which `table_to_fields` gives these; raise ValueError, naming a field."""
     balls = content.get('balls')
     if not isinstance(balls, list):
-        raise ValueError(f'balls: {balls!r} must be a list')
+        raise ValueError(f'balls: {shown(balls)} must be a list')
     made = {**content, 'balls': [_made(Ball, f'balls[{k}]', b) for k, b in enumerate(balls)]}
     if content.get('cushions') is not None:
         made['cushions'] = _made(Cushions, 'cushions', content['cushions'])
@@ -98,7 +99,7 @@ def table_from_fields(content: dict[str, Any]) -> Table:
 def _made(kind: type, name: str, given: Any) -> Any:
     """Return a dataclass from its fields; raise ValueError for what it has not."""
     if not isinstance(given, dict):
-        raise ValueError(f'{name}: {given!r} must be an object')
+        raise ValueError(f'{name}: {shown(given)} must be an object')
     known = {field.name: field for field in dataclasses.fields(kind)}
     for key in given:
         if key not in known:

@@ -16,9 +16,10 @@ from pool_sim_ros.physics.motion import BallTable
 from pool_sim_ros.physics.orientation import look_up_orientations, unit_quaternions
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT
+from pool_sim_ros.physics.validation import array, whole_number
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Trajectory:
     """The motion of all balls from the strike to rest, or to where the clock was stopped.
 
@@ -54,6 +55,10 @@ class Trajectory:
     segments: NDArray[np.void]
     complete: bool
     _pocketed: NDArray[np.int64] | None = None
+
+    def __repr__(self) -> str:
+        counts = f'{len(self.final_positions)} balls, {len(self.events)} events'
+        return f'<Trajectory {self.duration:.4g} s, {counts}{"" if self.complete else ", cut"}>'
 
     @cached_property
     def pocketed(self) -> NDArray[np.int64]:
@@ -102,7 +107,7 @@ class Trajectory:
     def spins(self, times: ArrayLike) -> NDArray[np.float64]:
         """Return the angular velocities, (k, n, 3) or (n, 3) in rad/s; as `positions`.
 
-        Zero on a table of discs.
+        About x, y and z, which points up. Zero on a table of discs, and of balls in a pocket.
         """
         asked, flat = self._times(times)
         found = np.zeros((len(flat), len(self.final_positions), 3))
@@ -160,7 +165,16 @@ class Trajectory:
         ndarray of shape (k, 2)
             m; straight from each to the next, within 1e-5 m. No point is twice in a row, so that
             a ball that never moves has one.
+
+        Raises
+        ------
+        ValueError
+            Where there is no such ball.
         """
+        n = len(self.final_positions)
+        ball = whole_number('ball', ball, least=0)
+        if ball >= n:
+            raise ValueError(f'ball: {ball} must be below {n}, the number of balls')
         segments = self.segments[self.segments['ball'] == ball]
         ends = np.append(segments['t'][1:], self.duration)
         points = [
@@ -180,7 +194,7 @@ class Trajectory:
         return found if asked.ndim else found[0]
 
     def _times(self, times: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        asked = np.asarray(times, dtype=float)
+        asked = array('times', times)
         if asked.ndim > 1:
             raise ValueError(f'times: shape {asked.shape} must be one-dimensional')
         flat = for_kernels(np.atleast_1d(asked))

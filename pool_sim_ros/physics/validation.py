@@ -17,6 +17,16 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.table import Table
 
 
+MOST_SHOWN = 160
+"""Characters of a wrong value that a message shows: it is to stay one line."""
+
+
+def shown(value: object) -> str:
+    """Return a value as a message shows it: on one line, and not all of it where it is long."""
+    text = ' '.join(repr(value).split())
+    return text if len(text) <= MOST_SHOWN else f'{text[: MOST_SHOWN - 3]}...'
+
+
 def number(
     name: str,
     value: object,
@@ -28,7 +38,9 @@ def number(
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise ValueError(f'{name}: {value!r} is not a number') from None
+        raise ValueError(f'{name}: {shown(value)} is not a number') from None
+    except OverflowError:
+        raise ValueError(f'{name}: {shown(value)} is too large') from None
     if not math.isfinite(number):
         raise ValueError(f'{name}: {number} is not finite')
     if number <= above:
@@ -45,7 +57,7 @@ def whole_number(name: str, value: object, least: int) -> int:
     try:
         whole = operator.index(value)  # type: ignore[arg-type]
     except TypeError:
-        raise ValueError(f'{name}: {value!r} is not a whole number') from None
+        raise ValueError(f'{name}: {shown(value)} is not a whole number') from None
     if not least <= whole < 2**63:
         raise ValueError(f'{name}: {whole} must be at least {least} and below 2**63')
     return whole
@@ -60,7 +72,7 @@ def numbers(
     except TypeError:
         items = ()
     if isinstance(values, str) or len(items) != count:
-        raise ValueError(f'{name}: {values!r} must be {count} numbers')
+        raise ValueError(f'{name}: {shown(values)} must be {count} numbers')
     return tuple(number(name, item, least, most) for item in items)
 
 
@@ -73,8 +85,8 @@ def array(name: str, values: ArrayLike) -> NDArray[np.float64]:
         if given.dtype.kind == 'c':
             raise TypeError
         return np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError(f'{name}: {values!r} is not an array of numbers') from None
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f'{name}: {shown(values)} is not an array of numbers') from None
 
 
 def check_layout(table: Table, positions: NDArray[np.float64], name: str = 'positions') -> None:

@@ -105,6 +105,43 @@ def test_the_first_shots_compile_nothing_more(law, balls, warm, integrator):
     assert int(count) >= 6  # else nothing was looked at
 
 
+FIRST_SHOTS_WITH_SPIN = """
+import dataclasses, gc, sys
+import numpy as np
+from pool_sim_ros.physics import compile_kernels, pool_table, rack, simulate, simulate_many
+from pool_sim_ros.physics.jit import Kernel
+
+def compiled():
+    kernels = [thing for thing in gc.get_objects() if isinstance(thing, Kernel)]
+    return sum(len(k.for_python.overloads) for k in kernels if 'for_python' in vars(k))
+
+name, = sys.argv[1:]
+table = pool_table(name)
+n = len(table.balls)
+compile_kernels(table)
+before = compiled()
+one, all_of_them = np.ones(3), np.ones((n, 3))
+turned = np.asfortranarray(all_of_them)
+for spins in (None, one, one.tolist(), np.float32(one), all_of_them, turned):
+    shot = simulate(table, (1.0, 0.0), spins=spins, until=0.1)
+    for times in (0.0, [0.0, 0.1], np.linspace(0.0, 0.1, 9)[::2]):
+        shot.positions(times), shot.spins(times), shot.orientations(times)
+    shot.orientations(0.0, shot.orientations(0.1)), shot.path(0), shot.pocketed
+for spins in (None, one, np.ones((4, 3)), np.ones((4, n, 3))):
+    for positions in (None, table.positions, np.stack([table.positions] * 4)):
+        given = dict(spins=spins, positions=positions, until=0.1, events=True)
+        simulate_many(table, np.ones((4, 2)), **given)
+dataclasses.replace(table, balls=rack(table, 'carom'), cushion_model='mathavan')
+print(before > 3, compiled() - before)
+"""
+
+
+@pytest.mark.parametrize('name', ['7ft', 'carom'])
+def test_nor_do_those_on_a_pool_table(name):
+    """With pockets and without."""
+    assert run(FIRST_SHOTS_WITH_SPIN, name) == 'True 0\n'
+
+
 OTHER_TABLES = """
 import dataclasses
 from tables import table_of

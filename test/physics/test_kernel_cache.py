@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numba
 import pytest
+from numba.core.registry import cpu_target
 from own_package import (
     CHECK,
     OUTSIDE,
@@ -22,7 +23,7 @@ from own_package import (
     without_capabilities,
 )
 
-from pool_sim_ros.physics import kernel_cache, report_table, simulate
+from pool_sim_ros.physics import kernel_cache, pool_table, report_table, simulate
 from pool_sim_ros.physics.boundary import Rectangle
 from pool_sim_ros.physics.jit import kernel
 from pool_sim_ros.physics.kernel_cache import KernelCache, keep, named_tuples
@@ -420,3 +421,25 @@ del CompileResult.{method}
         assert '_reduce' in ended.stderr
     else:
         assert ended.words == COMPILED
+
+
+def test_it_says_so_when_balls_that_spin_are_compiled(monkeypatch, tmp_path, caplog):
+    """Where nothing is kept; not for discs, nor for who compiles on purpose."""
+    monkeypatch.setattr(kernel_cache.config, 'CACHE_DIR', str(tmp_path))
+    kernel_cache._files.cache_clear()
+    pool, report = (
+        (numba.typeof(table.for_kernels),) for table in (pool_table('carom'), report_table())
+    )
+    load = KernelCache(first_fault.py_func).load_overload
+    try:
+        with kernel_cache.silence():
+            assert load(pool, cpu_target.target_context) is None
+        assert load(report, cpu_target.target_context) is None
+        assert not caplog.records
+        assert load(pool, cpu_target.target_context) is None
+    finally:
+        kernel_cache._files.cache_clear()
+    assert [record.getMessage() for record in caplog.records] == [
+        'pool_sim_ros compiles the physics of balls that spin, on the first run only: this takes '
+        'about 20 s'
+    ]

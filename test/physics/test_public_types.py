@@ -59,6 +59,29 @@ after, spin = collide_cushion(
 velocity, spin = cue_strike(table, speed=2.0, azimuth=180.0, side=0.2, above=-0.3)
 balls: tuple[Ball, ...] = rack(table, kind, spacing=1e-4, seed=3)
 points: NDArray[np.float64] = Cushions(np.zeros((0, 6)), np.zeros((0, 3))).noses
+pool: Table = pool_table('7ft')
+pool = dataclasses.replace(pool, balls=rack(pool, kind), cushion_model=model, friction_bound=bound)
+shot = simulate(pool, velocity, spins=spin, max_events=10_000)
+turned: NDArray[np.float64] = shot.orientations([0.0, 0.1], orientations0=shot.orientations(0.0))
+ends = shot.spins(seconds)
+ends = shot.path(pool.index('9'))
+holes: NDArray[np.int64] = shot.pocketed
+azimuth: float = aim_at(pool, 'C', '9', positions=shot.final_positions)
+many: Outcomes = simulate_many(
+    pool, [velocity], spins=[spin], positions=pool.positions, events=True, errors='mark', threads=1
+)
+holes, failures = many.pocketed, many.failed
+if many.events is not None and many.offsets is not None:
+    stops = many.events[many.offsets[0] : many.offsets[1]]
+many = simulate_many(pool, [velocity], spins=spin, out=many)
+pool.save('pool.json')
+pool = Table.load('pool.json')
+shot.save('shot.npz')
+shot = Trajectory.load('shot.npz')
+try:
+    check_layout(pool, pool.positions)
+except ShotTooLong:
+    pool = table_from_fields(table_to_fields(pool))
 compile_kernels(table)
 laws: list[str] = [*BALL_FRICTION_LAWS, *INTEGRATORS]
 """
@@ -76,6 +99,11 @@ Table(length=2.2, width=1.1, balls=(), size=9)
 two_ball_collision(0.17, 0.17, (1.0, 0.0))
 cue_strike(table, 2.0)
 rack(table, 'pyramid')
+pool_table('10ft')
+simulate_many(table, [(1.0, 0.0)], errors='ignore')
+simulate(table, (1.0, 0.0)).spins()
+aim_at(table, 0, 1)
+table.index(9)
 collide_cushion((1.0, 0.0, 0.0), 3, (1.0, 0.0), R=0.03, h=0.04, e=0.9, f=0.2, model='x')
 """
 

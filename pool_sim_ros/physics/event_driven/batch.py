@@ -66,7 +66,7 @@ def play_some(
             failed = BAD_VELOCITY
         elif layouts.shape[1] > 0 and not place(state, start, layouts[shot]):
             failed = BAD_LAYOUT
-        elif any_out_of_play(state, velocities[shot]):
+        elif any_out_of_play(state, velocities[shot]) or any_out_of_play(state, spins[shot]):
             failed = BAD_LAYOUT
         else:
             most = strike(state, velocities[shot], spins[shot])
@@ -105,12 +105,13 @@ def any_too_fast(velocities: NDArray[np.float64]) -> bool:
 
 
 @inlined
-def any_out_of_play(state: State, velocities: NDArray[np.float64]) -> bool:
-    """Return whether a ball that is struck, (k, 2) in m/s, lies in a pocket."""
-    for i in range(len(velocities)):
-        struck = velocities[i, 0] != 0.0 or velocities[i, 1] != 0.0
-        if struck and not in_play(state.balls[i], state.table):
-            return True
+def any_out_of_play(state: State, given: NDArray[np.float64]) -> bool:
+    """Return whether a ball that gets a velocity or a spin, (k, 2 or 3), lies in a pocket."""
+    for i in range(len(given)):
+        if not in_play(state.balls[i], state.table):
+            for k in range(given.shape[1]):
+                if given[i, k] != 0.0:
+                    return True
     return False
 
 

@@ -64,6 +64,11 @@ class BallTable(NamedTuple):
     coulomb: bool  # friction here never adds energy: no shot runs away
     cue_ball: int  # its number; -1 for none
 
+    @staticmethod
+    def compile_notice() -> str:
+        """Return what to say before this is compiled, see `kernel_cache`."""
+        return 'the physics of balls that spin, on the first run only: this takes about 20 s'
+
 
 def spheres_at_rest(
     positions: NDArray[np.float64],
