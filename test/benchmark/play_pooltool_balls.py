@@ -48,8 +48,10 @@ def engine_for(ball_friction: str, cushion_model: str) -> PhysicsEngine:
     law = {'coulomb': AverageBallBallFriction, 'alciatore': AlciatoreBallBallFriction}
     resolver.ball_ball = FrictionalInelastic(friction=law[ball_friction]())
     model = CUSHION_MODELS[cushion_model]
-    resolver.ball_linear_cushion = ball_lcushion_models[model]()
-    resolver.ball_circular_cushion = ball_ccushion_models[model]()
+    # Of the two values that pooltool has for this model, its default engine takes 1.8.
+    options = {'omega_ratio': 1.8} if cushion_model == 'stronge' else {}
+    resolver.ball_linear_cushion = ball_lcushion_models[model](**options)
+    resolver.ball_circular_cushion = ball_ccushion_models[model](**options)
     return PhysicsEngine(resolver=resolver)
 
 

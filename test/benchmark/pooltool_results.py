@@ -20,7 +20,7 @@ import numpy as np  # noqa: E402
 from benchmark.ask_pooltool import Pooltool, Shots  # noqa: E402
 from benchmark.pooltool_command import run  # noqa: E402
 from benchmark.results import PLAYED, significant  # noqa: E402
-from benchmark.spaced import Contact, Played, play, play_spaced  # noqa: E402
+from benchmark.spaced import Contact, Played, PushedIn, play, play_spaced  # noqa: E402
 from benchmark.spin_workloads import (  # noqa: E402
     FIFTEEN,
     NINE,
@@ -81,9 +81,13 @@ class Agreement:
     pocketed: int = 0
     apart: list[float] = field(default_factory=list)
     unlike: list[int] = field(default_factory=list)
+    pushed_in: int = 0
 
-    def add(self, number: int, ours: Played, theirs: Played) -> None:
+    def add(self, number: int, ours: Played | None, theirs: Played) -> None:
         self.shots += 1
+        if ours is None:
+            self.pushed_in += 1
+            return
         self.pocketed += _pocketed(ours) == _pocketed(theirs)
         if _sides(ours) == _sides(theirs):
             self.contacts += 1
@@ -108,7 +112,11 @@ def compare(pooltool: Pooltool, case: Case, players: tuple[Player, ...]) -> list
     for player in players:
         agreement = Agreement()
         for number, (shot, other) in enumerate(zip(zip(*shots, strict=True), theirs, strict=True)):
-            agreement.add(number, player(case.table, *shot), other)
+            try:
+                ours = player(case.table, *shot)
+            except PushedIn:
+                ours = None
+            agreement.add(number, ours, other)
         found.append(agreement)
     return found
 
@@ -168,7 +176,8 @@ def compared(pooltool: Pooltool) -> str:
 
 
 def counts(found: Agreement) -> list[str]:
-    return [f'{found.contacts} of {found.shots}', f'{found.pocketed} of {found.shots}']
+    pushed = f', {found.pushed_in} pushed into a third' if found.pushed_in else ''
+    return [f'{found.contacts} of {found.shots}{pushed}', f'{found.pocketed} of {found.shots}']
 
 
 def at_most(found: Agreement) -> str:

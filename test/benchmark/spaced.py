@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics import Table, Trajectory, collide_balls, collide_cushion, simulate
+from pool_sim_ros.physics.tolerances import OVERLAP
 
 Array = NDArray[np.float64]
 
@@ -32,6 +33,10 @@ class Contact(NamedTuple):
     kind: int
     a: int
     b: int
+
+
+class PushedIn(ValueError):
+    """Two balls were moved apart, and one of them into a third."""
 
 
 class Played(NamedTuple):
@@ -54,6 +59,8 @@ def play_spaced(
 
     Raises
     ------
+    PushedIn
+        Where the spacing moves a ball into a third.
     RuntimeError
         Where there are more than `most` contacts.
     """
@@ -74,8 +81,17 @@ def play_spaced(
         now += float(event['t'])
         if event['kind'] == BALL_BALL:
             _resolve_balls(table, moves, int(event['a']), int(event['b']))
+            _check_apart(table, moves[0])
         else:
             _resolve_cushion(table, moves, event)
+
+
+def _check_apart(table: Table, positions: Array) -> None:
+    away = positions[:, np.newaxis] - positions
+    distances = np.hypot(*np.moveaxis(away, 2, 0))[np.triu_indices(len(positions), 1)]
+    # Caught balls lie in one another.
+    if np.any((distances < 2.0 * table.balls[0].radius - OVERLAP) & (distances > 0.0)):
+        raise PushedIn('the spacing moves a ball into a third')
 
 
 def _contacts(shot: Trajectory, since: float) -> list[Contact]:
@@ -168,7 +184,8 @@ def _resolve_cushion(table: Table, moves: tuple[Array, Array, Array], event: np.
         f=table.mu_ball_cushion,
         model=table.cushion_model,
         mu_slide=table.mu_slide,
-        nose_radius=nose,
+        # In some models the edge pushes from where it is, now a little farther from the centre.
+        nose_radius=nose + SPACING,
     )
     v[ball] = velocity[:2]
 
