@@ -104,9 +104,11 @@ def _pocketed(played: Played) -> list[tuple[int, int]]:
     return [(c.a, c.b) for c in played.contacts if c.kind == POCKETED]
 
 
-def compare(pooltool: Pooltool, case: Case, players: tuple[Player, ...]) -> list[Agreement]:
-    """Return for each way to play how its shots agree with pooltool's."""
-    shots = shots_of(case.name, case.shots)
+def compare(
+    pooltool: Pooltool, case: Case, players: tuple[Player, ...], most: int | None = None
+) -> list[Agreement]:
+    """Return for each way to play how its shots, `most` at most, agree with pooltool's."""
+    shots = shots_of(case.name, min(case.shots, most or case.shots))
     theirs = played_by_pooltool(pooltool, case.table, shots)
     found = []
     for player in players:
@@ -162,7 +164,7 @@ def compared(pooltool: Pooltool) -> str:
     version = pooltool.versions()['pooltool']
     lines = [
         '',
-        f'| shots; laws | beside pooltool {version} with its spacing: contacts | pocketed | apart, m '
+        f'| shots; laws | as pooltool {version} spaces balls: contacts | pocketed | apart, m '
         '| nothing imitated: contacts | pocketed | apart, m: median, most |',
         '| --- | ---: | ---: | ---: | ---: | ---: | ---: |',
     ]
@@ -171,7 +173,9 @@ def compared(pooltool: Pooltool) -> str:
         cells = [case.what, *counts(spaced), at_most(spaced), *counts(plain), middle_most(plain)]
         lines.append(f'| {" | ".join(cells)} |')
         if spaced.unlike:
-            print(f'{case.what}: unlike with the spacing are shots {spaced.unlike}', file=sys.stderr)
+            print(
+                f'{case.what}: unlike with the spacing are shots {spaced.unlike}', file=sys.stderr
+            )
     return '\n'.join([*lines, ''])
 
 

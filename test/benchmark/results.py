@@ -23,6 +23,7 @@ SECTIONS = (
     "Random shots on the report's table",
     "Planners' calls on the report's table, one core",
     'Many balls, everything moving, one core',
+    'Balls that spin, one core',
     'Memory',
     'Starting',
 )

@@ -84,7 +84,9 @@ def test_shots_and_events(results, calls, name):
         per_second(1, 'shots'),
         key=f'spin: {name}',
     )
-    results.note(SECTION, f'{name}, an event', as_time(statistics.median(call.seconds) / call.events))
+    results.note(
+        SECTION, f'{name}, an event', as_time(statistics.median(call.seconds) / call.events)
+    )
     if name == 'discs':
         return
     per_shot = call.beside(discs)
@@ -114,7 +116,7 @@ def test_beside_pooltool(results, pooltool, calls, one_core, name):
 
 
 def test_two_cores(results):
-    call = {count: Call(table_of(REPORT), strikes(shots_of(REPORT, 20_000))) for count in (1, 2)}
+    call = {count: Call(table_of(REPORT), strikes(shots_of(REPORT, 100_000))) for count in (1, 2)}
     for _ in range(ROUNDS):
         for count, each in call.items():
             with cores(count):
