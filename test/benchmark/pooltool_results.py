@@ -20,7 +20,7 @@ import numpy as np  # noqa: E402
 from benchmark.ask_pooltool import Pooltool, Shots  # noqa: E402
 from benchmark.pooltool_command import run  # noqa: E402
 from benchmark.results import PLAYED, significant  # noqa: E402
-from benchmark.spaced import Contact, Played, PushedIn, play, play_spaced  # noqa: E402
+from benchmark.spaced import Contact, Played, PushedInError, play, play_spaced  # noqa: E402
 from benchmark.spin_workloads import (  # noqa: E402
     FIFTEEN,
     NINE,
@@ -116,7 +116,7 @@ def compare(
         for number, (shot, other) in enumerate(zip(zip(*shots, strict=True), theirs, strict=True)):
             try:
                 ours = player(case.table, *shot)
-            except PushedIn:
+            except PushedInError:
                 ours = None
             agreement.add(number, ours, other)
         found.append(agreement)

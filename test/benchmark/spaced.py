@@ -40,7 +40,7 @@ class Contact(NamedTuple):
     b: int
 
 
-class PushedIn(ValueError):
+class PushedInError(ValueError):
     """Two balls were moved apart, and one of them into a third."""
 
 
@@ -64,7 +64,7 @@ def play_spaced(
 
     Raises
     ------
-    PushedIn
+    PushedInError
         Where the spacing moves a ball into a third.
     RuntimeError
         Where there are more than `most` contacts.
@@ -96,7 +96,7 @@ def _check_apart(table: Table, positions: Array) -> None:
     distances = np.hypot(*np.moveaxis(away, 2, 0))[np.triu_indices(len(positions), 1)]
     # Caught balls lie in one another.
     if np.any((distances < 2.0 * table.balls[0].radius - OVERLAP) & (distances > 0.0)):
-        raise PushedIn('the spacing moves a ball into a third')
+        raise PushedInError('the spacing moves a ball into a third')
 
 
 def _contacts(shot: Trajectory, since: float) -> list[Contact]:
