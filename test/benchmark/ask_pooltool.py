@@ -8,15 +8,26 @@ import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pool_sim_ros.physics import Table
 
 SCRIPT = Path(__file__).with_name('play_pooltool.py')
+BALLS_SCRIPT = Path(__file__).with_name('play_pooltool_balls.py')
 MOST_EVENTS = 20_000
 TIMEOUT = 600.0
 ENGINES = ('nearest', 'default')
+
+
+class Shots(NamedTuple):
+    """Shots of balls that spin: of all balls, in m, m/s and rad/s."""
+
+    positions: NDArray[np.float64]  # (m, n, 2)
+    velocities: NDArray[np.float64]  # (m, n, 2)
+    spins: NDArray[np.float64]  # (m, n, 3)
 
 
 @dataclass(frozen=True)
@@ -56,7 +67,41 @@ class Pooltool:
         request = described(table)
         request['shots'] = [for_every_ball(table, shot) for shot in shots]
         request.update(rounds=rounds, engine=engine, max_events=MOST_EVENTS)
-        return self._ask(request)
+        return self._ask(SCRIPT, request)
+
+    def play_balls(self, table: Table, shots: Shots, rounds: int = 0) -> dict:
+        """Play shots on a table of motion `ball` with the same models and coefficients.
+
+        Where `table` has pockets, pooltool takes its own seven-foot table.
+
+        Parameters
+        ----------
+        table : Table
+        shots : Shots
+        rounds : int, optional
+            How often to play all shots with a stop watch.
+
+        Returns
+        -------
+        dict
+            `shots`: for each its `error` or None, `contacts` (rows of t, kind, a, b and the place
+            of cushion or pocket), `events` (their number), `duration`, `positions`. `seconds`: one
+            processor time per round, for all shots.
+
+        Raises
+        ------
+        RuntimeError
+            Where the process fails; what it printed.
+        ValueError
+            Where pooltool cannot play on such a table; what it has no match for.
+        """
+        request = described_balls(table)
+        request['shots'] = [
+            {'positions': x.tolist(), 'velocities': v.tolist(), 'spins': w.tolist()}
+            for x, v, w in zip(*shots, strict=True)
+        ]
+        request.update(rounds=rounds, max_events=MOST_EVENTS)
+        return self._ask(BALLS_SCRIPT, request)
 
     def versions(self) -> dict[str, str]:
         """Return the versions of pooltool and of the numba that it runs on."""
@@ -66,8 +111,8 @@ class Pooltool:
         )
         return json.loads(self._run(['-c', code], ''))
 
-    def _ask(self, request: dict) -> dict:
-        return json.loads(self._run([str(SCRIPT)], json.dumps(request)))
+    def _ask(self, script: Path, request: dict) -> dict:
+        return json.loads(self._run([str(script)], json.dumps(request)))
 
     def _run(self, arguments: list[str], text: str) -> str:
         done = subprocess.run(
@@ -105,6 +150,21 @@ def described(table: Table) -> dict:
     names = ('length', 'width', 'mu_ball_surface', 'mu_ball_ball', 'mu_ball_cushion')
     fields = {name: getattr(table, name) for name in (*names, 'e_ball_cushion', 'gravity')}
     return {**fields, 'balls': balls}
+
+
+def described_balls(table: Table) -> dict:
+    """Return what pooltool is told of a table on which balls spin."""
+    if table.e_cue_ball != table.e_ball_ball or len(set(table.masses)) > 1:
+        raise ValueError('pooltool has one mass and one restitution of all balls')
+    if table.friction_bound != 'restitution':
+        raise ValueError("friction_bound: pooltool has 'restitution' only")
+    names = ('length', 'width', 'nose_height', 'mu_slide', 'mu_roll', 'mu_spin', 'gravity')
+    laws = ('ball_friction', 'cushion_model', 'mu_ball_ball', 'mu_ball_cushion')
+    fields = {
+        name: getattr(table, name) for name in (*names, *laws, 'e_ball_ball', 'e_ball_cushion')
+    }
+    ball = table.balls[0]
+    return {**fields, 'mass': ball.mass, 'radius': ball.radius, 'pockets': len(table.pockets) > 0}
 
 
 def for_every_ball(table: Table, velocities) -> list[list[float]]:

@@ -7,9 +7,7 @@ Prints a table; `make bench` creates the environment and writes the table to doc
 
 from __future__ import annotations
 
-import argparse
 import sys
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +16,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import numpy as np  # noqa: E402
 from benchmark.ask_pooltool import Pooltool  # noqa: E402
-from benchmark.results import write_between_marks  # noqa: E402
+from benchmark.pooltool_command import run  # noqa: E402
+from benchmark.results import FIGURES  # noqa: E402
 
 from pool_sim_ros.physics import Ball, Table, simulate  # noqa: E402
 
@@ -89,37 +88,6 @@ def cases() -> list[Case]:
     ]  # fmt: skip
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.partition('\n\n')[0])
-    parser.add_argument(
-        '--pooltool',
-        type=Path,
-        default=Path('.venv-bench/bin/python'),
-        metavar='PYTHON',
-        help='Python of an environment with pooltool; default: .venv-bench/bin/python',
-    )
-    parser.add_argument(
-        '--write', type=Path, metavar='FILE', help='write the table between the marks in this file'
-    )
-    arguments = parser.parse_args()
-    if not arguments.pooltool.exists():
-        parser.error(f'--pooltool: {arguments.pooltool} does not exist; `make bench` creates it')
-    try:
-        with tempfile.TemporaryDirectory() as home:
-            table = compared(Pooltool(arguments.pooltool, Path(home)))
-    except RuntimeError as error:
-        print(str(error).splitlines()[-1], file=sys.stderr)
-        return 1
-    print(table)
-    if arguments.write:
-        try:
-            write_between_marks(arguments.write, table)
-        except (OSError, ValueError) as error:
-            print(f'--write: {error}', file=sys.stderr)
-            return 1
-    return 0
-
-
 def compared(pooltool: Pooltool) -> str:
     """Return the table, in Markdown."""
     version = pooltool.versions()['pooltool']
@@ -157,4 +125,4 @@ def told(case: Case, contacts: int, positions: np.ndarray) -> str:
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(run(__doc__.partition('\n\n')[0], compared, FIGURES))

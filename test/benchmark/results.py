@@ -12,14 +12,18 @@ from pathlib import Path
 
 from pool_sim_ros.physics.cores import available_cores
 
-BEGIN, END = '<!-- figures: begin -->', '<!-- figures: end -->'
+FIGURES = '<!-- figures: begin -->', '<!-- figures: end -->'
 """What the table stands between in the file that it is written to."""
+
+PLAYED = '<!-- played: begin -->', '<!-- played: end -->'
+"""The same of the shots that are played with pooltool too."""
 
 SECTIONS = (
     "The report's four shots, one core",
     "Random shots on the report's table",
     "Planners' calls on the report's table, one core",
     'Many balls, everything moving, one core',
+    'Balls that spin, one core',
     'Memory',
     'Starting',
 )
@@ -110,18 +114,18 @@ def section_order(section: str) -> int:
     return SECTIONS.index(section) if section in SECTIONS else len(SECTIONS)
 
 
-def write_between_marks(file: Path, table: str) -> None:
+def write_between_marks(file: Path, table: str, marks: tuple[str, str] = FIGURES) -> None:
     """Put the table between the marks in `file`; raise ValueError where they are missing."""
-    head, tail = around_marks(file)
-    file.write_text(f'{head}{BEGIN}\n{table}\n{END}{tail}')
+    head, tail = around_marks(file, marks)
+    file.write_text(f'{head}{marks[0]}\n{table}\n{marks[1]}{tail}')
 
 
-def around_marks(file: Path) -> tuple[str, str]:
+def around_marks(file: Path, marks: tuple[str, str] = FIGURES) -> tuple[str, str]:
     """Return what stands before and after the marks; raise ValueError where they are missing."""
-    head, begin, rest = file.read_text().partition(BEGIN)
-    _, end, tail = rest.partition(END)
+    head, begin, rest = file.read_text().partition(marks[0])
+    _, end, tail = rest.partition(marks[1])
     if not begin or not end:
-        raise ValueError(f'{file}: must contain the lines {BEGIN} and {END}')
+        raise ValueError(f'{file}: must contain the lines {marks[0]} and {marks[1]}')
     return head, tail
 
 

@@ -270,6 +270,14 @@ def is_outside(
         return False
     if not (abs(x) < np.inf and abs(y) < np.inf):
         return True
+    # Where most balls of a layout lie: nothing but the rails is near.
+    if (
+        (boundary.inner == radius)
+        & (radius <= x <= boundary.length - radius)
+        & (radius <= y <= boundary.width - radius)
+        & (tolerance >= TOUCHING)
+    ):
+        return False
     least = radius - tolerance
     for k in range(len(boundary.segments)):
         segment = boundary.segments[k]

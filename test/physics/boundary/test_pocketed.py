@@ -259,6 +259,23 @@ def test_places(name):
     assert (counts > 40).all() and (counts < 3500).all()
 
 
+@pytest.mark.parametrize('name', NAMES)
+def test_the_inner_rectangle_changes_nothing_of_what_is_outside(name):
+    """Places all over the table, and hairs beside the lines where a ball touches a rail."""
+    boundary, radius = boundary_of(name)
+    assert boundary.inner == radius
+    plain = boundary._replace(inner=np.inf)
+    rng = np.random.default_rng(7)
+    spots = rng.uniform(-0.05, (boundary.length + 0.05, boundary.width + 0.05), (4000, 2))
+    at = np.array([radius, boundary.length - radius]), np.array([radius, boundary.width - radius])
+    for axis in (0, 1):
+        count = len(spots[axis::4])
+        spots[axis::4, axis] = rng.choice(at[axis], count) + rng.choice([-3e-9, 0, 3e-9], count)
+    told = [asked(boundary, *spot, radius, radius, -1)[0] for spot in spots]
+    assert told == [asked(plain, *spot, radius, radius, -1)[0] for spot in spots]
+    assert 400 < sum(told) < 2400
+
+
 def test_a_place_that_is_no_number_is_outside():
     boundary, radius = boundary_of('7ft')
     for spot in ((math.nan, 0.5), (0.5, math.nan), (math.inf, 0.5), (0.5, -math.inf)):
