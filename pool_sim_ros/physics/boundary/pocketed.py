@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.boundary.mouths import faces, height_above, is_cut_off
 from pool_sim_ros.physics.boundary.rectangle import time_to_rectangle
 from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION, PHASE_END
+from pool_sim_ros.physics.capsule import Capsule, capsule_of, room_beside
 from pool_sim_ros.physics.contact_time import RelativeMotion, time_to_line, time_to_moving_ball
 from pool_sim_ros.physics.jit import inlined, kernel
 from pool_sim_ros.physics.tolerances import TOUCHING
@@ -150,24 +151,32 @@ def time_to_anything(boundary: Any, path: Any, radius: float) -> tuple[float, in
             y = path.y + t * (path.vy + 0.5 * t * path.ay)
             if faces(segments[k], x, y):
                 best, partner = t, FIRST_CUSHION - k
+    capsule = capsule_of(path, best)
     for k in range(len(noses)):
-        t = time_to_circle(path, noses[k], radius, best)
+        t = time_to_circle(path, capsule, noses[k], radius, best)
         if t < best:
             best, partner = t, FIRST_CUSHION - len(segments) - k
     for k in range(len(pockets)):
-        t = time_to_circle(path, pockets[k], 0.0, best)
+        t = time_to_circle(path, capsule, pockets[k], 0.0, best)
         if t < best:
             best, partner = t, FIRST_CUSHION - len(segments) - len(noses) - k
     return (best if partner != PHASE_END else np.inf), partner
 
 
 @inlined
-def time_to_circle(path: Any, circle: NDArray[np.float64], radius: float, before: float) -> float:
-    """Return the seconds until a ball of `radius` touches a circle; inf if not `before`."""
-    motion = RelativeMotion(
-        circle[0] - path.x, circle[1] - path.y, -path.vx, -path.vy, -path.ax, -path.ay
-    )
-    return time_to_moving_ball(motion, circle[2] + radius, before)
+def time_to_circle(
+    path: Any, capsule: Capsule, circle: NDArray[np.float64], radius: float, before: float
+) -> float:
+    """Return the seconds until a ball of `radius` touches a circle; inf if not `before`.
+
+    The capsule holds the path until then.
+    """
+    dx, dy = circle[0] - path.x, circle[1] - path.y
+    reach = circle[2] + radius
+    if room_beside(capsule, dx, dy, reach) > 0.0:
+        return np.inf
+    motion = RelativeMotion(dx, dy, -path.vx, -path.vy, -path.ax, -path.ay)
+    return time_to_moving_ball(motion, reach, before)
 
 
 def nose_radius(boundary: PocketedBoundary, cushion: int) -> float:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pool_sim_ros.physics.capsule import capsule_of, room_beside
 from pool_sim_ros.physics.contact_time import RelativeMotion, time_to_moving_ball
 from pool_sim_ros.physics.jit import Record, inlined
 
@@ -37,39 +38,6 @@ def time_to_place(path: CurvedPath, dx: float, dy: float, touch: float, before: 
     return time_to_moving_ball(motion, touch, min(before, path.lasts))
 
 
-class Capsule(NamedTuple):
-    """All that is within `sag` m of the chord of a path: the path is inside."""
-
-    ux: float  # unit vector along the chord
-    uy: float
-    length: float  # m
-    sag: float
-
-
-@inlined
-def capsule_of(path: CurvedPath, lasts: float) -> Capsule:
-    """Return a capsule that holds the first `lasts` s of a path.
-
-    From a point that runs along the chord evenly the path is off by ``a t (T - t) / 2``, which is
-    at most ``a T^2 / 8``. Only the part across the chord matters, unless the path turns back.
-    """
-    dx = lasts * (path.vx + 0.5 * lasts * path.ax)
-    dy = lasts * (path.vy + 0.5 * lasts * path.ay)
-    length = np.sqrt(dx * dx + dy * dy)
-    if length > 0.0:
-        ux, uy = dx / length, dy / length
-    else:
-        ux, uy = 1.0, 0.0
-    end_vx, end_vy = path.vx + lasts * path.ax, path.vy + lasts * path.ay
-    squared = (path.ax * uy - path.ay * ux) ** 2
-    if (path.vx * ux + path.vy * uy < 0.0) | (end_vx * ux + end_vy * uy < 0.0):
-        # It turns back, and so leaves its chord beyond an end.
-        squared = path.ax * path.ax + path.ay * path.ay
-    half = 0.5 * lasts
-    sag = 0.5 * half * half * np.sqrt(squared)
-    return Capsule(ux, uy, length, sag)
-
-
 @inlined
 def first_in_rows(
     path: CurvedPath, radius: float, lasts: float, rows: NDArray[np.float64]
@@ -83,12 +51,7 @@ def first_in_rows(
     capsule = capsule_of(path, lasts)
     nearest = 0
     for k in range(len(x)):
-        dx, dy = x[k] - path.x, y[k] - path.y
-        along = dx * capsule.ux + dy * capsule.uy
-        nearby = min(max(along, 0.0), capsule.length)
-        across, beyond = dx * capsule.uy - dy * capsule.ux, along - nearby
-        reach = radius + radii[k] + capsule.sag
-        room[k] = across * across + beyond * beyond - reach * reach
+        room[k] = room_beside(capsule, x[k] - path.x, y[k] - path.y, radius + radii[k])
         nearest += room[k] <= 0.0
     ball = -1
     if nearest > 0:

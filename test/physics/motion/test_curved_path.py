@@ -4,23 +4,18 @@ import math
 
 import numpy as np
 import pytest
+from curved_paths import random_path, sampled
 from numba import njit
 
 from pool_sim_ros.physics.motion.ball_record import BALL
 from pool_sim_ros.physics.motion.curved_path import (
     CurvedPath,
-    capsule_of,
     first_in_rows,
     first_of_listed,
     time_to_place,
 )
 
 RADIUS = 0.03
-
-
-@njit
-def capsule(path, lasts):
-    return capsule_of(path, lasts)
 
 
 @njit
@@ -36,48 +31,6 @@ def first_one_by_one(path, radius, lasts, balls, listed, count):
 @njit
 def time_to(path, dx, dy, touch, before):
     return time_to_place(path, dx, dy, touch, before)
-
-
-def sampled(path, lasts, steps):
-    t = np.linspace(0.0, lasts, steps)[:, np.newaxis]
-    start, velocity, acceleration = np.reshape(path[:6], (3, 2))
-    return t[:, 0], start + t * velocity + 0.5 * t * t * acceleration
-
-
-def random_path(rng):
-    """Return a path that bends a little, much, or turns back on itself."""
-    speed, angle = rng.choice([0.0, 0.1, 1.0, 5.0]), rng.uniform(-math.pi, math.pi)
-    ux, uy = math.cos(angle), math.sin(angle)
-    a, bend = rng.choice([0.0, 0.1, 2.0, 30.0]), rng.choice([0.0, math.pi, rng.uniform(0.0, 6.0)])
-    ax, ay = a * math.cos(angle + bend), a * math.sin(angle + bend)
-    lasts = rng.choice([1e-6, 0.1, 0.5, 1.5])
-    return CurvedPath(*rng.uniform(0.0, 1.0, 2), speed * ux, speed * uy, ax, ay, lasts, False)
-
-
-def test_the_path_stays_in_its_capsule():
-    rng = np.random.default_rng(1)
-    turned = 0
-    for _ in range(1000):
-        path = random_path(rng)
-        lasts = path.lasts * rng.choice([1.0, rng.random()])
-        found = capsule(path, lasts)
-        _, points = sampled(path, lasts, 500)
-        relative = points - points[0]
-        along = relative @ (found.ux, found.uy)
-        across = relative @ (found.uy, -found.ux)
-        beyond = along - np.clip(along, 0.0, found.length)
-        assert np.hypot(across, beyond).max() <= found.sag + 1e-12
-        assert math.hypot(found.ux, found.uy) == pytest.approx(1.0, abs=1e-14)
-        turned += np.abs(beyond).max() > 1e-6
-    assert turned > 50
-
-
-def test_a_path_that_ends_where_it_began_has_a_capsule_too():
-    path = CurvedPath(0.5, 0.5, 1.0, 0.0, -2.0, 0.0, 1.0, False)
-    found = capsule(path, 1.0)
-    assert found.length == 0.0 and found.sag == 0.25
-    still = capsule(path._replace(vx=0.0, ax=0.0), 1.0)
-    assert still.length == still.sag == 0.0
 
 
 def test_no_ball_is_left_out_that_the_path_touches():
