@@ -80,14 +80,14 @@ soak: $(INSTALLED)
 	$(PY) -m pytest -m soak
 	$(PY) test/long_run.py
 
-# Without the tests that take longest: what they look for depends on no version.
+# Whole shots: they run every kernel. That a kernel equals its twin depends on no version.
 oldest: $(if $(OLDEST_PYTHON),$(OLDEST))
 ifeq ($(OLDEST_PYTHON),)
 	@echo 'There is no Python 3.10 here, so the physics is not tested on it.'
 else
 	$(call VERSIONS,$(OLDEST_VENV)/bin/python)
 	NUMBA_CACHE_DIR=$(OLDEST_VENV)/numba $(OLDEST_VENV)/bin/python -m pytest -q -p no:cacheprovider \
-		test/physics test/me212 test/test_examples.py \
+		test/physics/test_*.py test/me212 test/test_examples.py \
 		-k 'not (test_robust or test_properties or test_unskipped or test_long_run or plain_loop)' \
 		--ignore-glob='*/test_oracle_spin.py' --ignore-glob='*/test_rattles.py'
 endif

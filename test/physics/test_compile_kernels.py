@@ -91,11 +91,17 @@ def run(script, *arguments):
     ('law', 'balls', 'warm'),
     [
         ('report', '11', 'same'),
-        ('coulomb', '45', 'same'),
-        ('report', '45', 'another'),
-        ('coulomb', '1', 'another'),
-        ('report', '1', 'same'),
-        ('coulomb', '2', 'same'),
+        ('coulomb', '45', 'another'),
+        *(
+            pytest.param(*given, marks=pytest.mark.soak)
+            for given in [
+                ('coulomb', '45', 'same'),
+                ('report', '45', 'another'),
+                ('coulomb', '1', 'another'),
+                ('report', '1', 'same'),
+                ('coulomb', '2', 'same'),
+            ]
+        ),
     ],
 )
 def test_the_first_shots_compile_nothing_more(law, balls, warm, integrator):

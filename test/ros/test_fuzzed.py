@@ -60,7 +60,7 @@ def garbage(draw):
     return name, draw(st.binary(min_size=1, max_size=200))
 
 
-@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(garbage(), min_size=1, max_size=5))
 def test_garbage_under_the_right_type_ends_nothing(victim, messages):
     observer, attacker = victim
@@ -118,7 +118,7 @@ MESSAGES = st.one_of(
 )  # fmt: skip
 
 
-@settings(max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(MESSAGES, min_size=1, max_size=5))
 def test_any_message_is_answered_and_ends_nothing(victim, messages):
     observer, attacker = victim

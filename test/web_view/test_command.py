@@ -54,7 +54,13 @@ def test_help_names_every_option(domain):
 
 
 @pytest.mark.parametrize(
-    'host', ['192.0.2.1', 'no.such.host.invalid', 'a b', 'ä' * 80, '[', '1.2.3']
+    'host',
+    [
+        '192.0.2.1',
+        'no.such.host.invalid',
+        'ä' * 80,
+        *(pytest.param(host, marks=pytest.mark.soak) for host in ('a b', '[', '1.2.3')),
+    ],
 )
 def test_a_host_that_is_none_is_one_clear_line_and_status_1(domain, host):
     with Process('web_view', '--port', '0', '--host', host) as process:

@@ -59,7 +59,7 @@ def test_nothing_is_asked_of_a_boundary_but_what_it_registers():
 def test_a_rectangle_of_four_lines_plays_as_the_rectangle(law, play_all):
     table = dataclasses.replace(report_table(), ball_friction=law)
     kernels_table = within(table, rectangle_of(table))
-    cushions, velocities = 0, random_velocities(200, seed=11)
+    cushions, velocities = 0, random_velocities(60, seed=11)
     shots = [(kernels_table, table.balls_at_rest, velocity) for velocity in velocities]
     for velocity, found in zip(velocities, play_all(shots), strict=True):
         expected = simulate(table, velocity)
@@ -67,7 +67,7 @@ def test_a_rectangle_of_four_lines_plays_as_the_rectangle(law, play_all):
         assert found.duration == pytest.approx(expected.duration, abs=1e-12)
         assert_same_contacts(found.events, expected.events)
         cushions += np.sum(found.events['kind'] == 1)
-    assert cushions > 200
+    assert cushions > 60
 
 
 def test_a_crowded_rectangle_of_four_lines_plays_as_the_rectangle(play_all):
@@ -81,8 +81,17 @@ def test_a_crowded_rectangle_of_four_lines_plays_as_the_rectangle(play_all):
     assert_same_contacts(found.events, expected.events)
 
 
-@pytest.mark.parametrize('law', LAWS)
-@pytest.mark.parametrize('degrees', [30.0, 90.0, 137.0])
+@pytest.mark.parametrize(
+    ('degrees', 'law'),
+    [
+        (30.0, 'coulomb'),
+        (137.0, 'report'),
+        *(
+            pytest.param(degrees, law, marks=pytest.mark.soak)
+            for degrees, law in [(30.0, 'report'), (90.0, 'report'), (90.0, 'coulomb')]
+        ),
+    ],
+)
 def test_a_table_that_is_turned_plays_the_turned_shot(degrees, law, play_all):
     """Shots of a few balls, slow, so that each contact multiplies the rounding but little."""
     given = list(random_shots(68, 20, law, balls=3, fastest=1.5, mu_ball_surface=0.2))
