@@ -76,10 +76,23 @@ def test_everything_fits_a_phone(whole, name):
     assert wide == []
 
 
-@pytest.mark.parametrize('paper', ['A4', 'Letter'])
+@pytest.mark.parametrize(
+    ('name', 'height'), [('shot 3', 279), ('shot 3', 290), ('shot 3', 297), ('long labels', 275)]
+)
+def test_no_printed_page_has_a_single_line(whole, name, height):
+    assert_full_pages(whole[name], height)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize('height', range(270, 300))
 @pytest.mark.parametrize('name', NAMES)
-def test_no_printed_page_has_a_single_line(whole, name, paper):
-    counts = lines_on_pages(whole[name].pdf(format=paper))
+def test_no_printed_page_of_any_height_has_a_single_line(whole, name, height):
+    assert_full_pages(whole[name], height)
+
+
+def assert_full_pages(page, height):
+    """Print on paper of some height, mm, and look at every page."""
+    counts = lines_on_pages(page.pdf(width='210mm', height=f'{height}mm'))
     assert len(counts) > 5
     assert min(counts) >= FEWEST_LINES, counts
 
