@@ -19,9 +19,9 @@ BURST = 1000
 """Depth of the queues that must not lose a burst of commands or answers."""
 
 KEPT_FRAMES = 1000
-"""Frames that the node keeps for readers that fall behind: 0.55 s at 30 times real time. Fast DDS
-queues 512 messages in shared memory for a process that does not run, 0.14 s of poses and velocities
-at that speed, and drops what follows; it sends again only what the publisher still keeps."""
+"""Frames that the node keeps for readers that fall behind: 0.55 s at 30 times real time. For a
+process that does not run, Fast DDS queues 512 messages in shared memory: 256 frames, poses and
+velocities, 0.14 s at that speed. It drops what follows, and sends again only what is still kept."""
 
 
 @dataclass(frozen=True)
