@@ -38,16 +38,13 @@ def main(args: list[str]) -> None:
 
 
 def _make(options: argparse.Namespace, interrupts: Interrupts) -> None:
-    from pool_sim_ros.me212 import format_log
     from pool_sim_ros.report.files import write_text
-    from pool_sim_ros.report.played import aim, log_remark, play_shots, verdict
+    from pool_sim_ros.report.played import log_of, play_shots, verdict
     from pool_sim_ros.report.positions import format_positions
 
     out, settings = options.out, _settings(options)
     shots = list(_checking(play_shots(settings, sorted(set(options.shots))), interrupts))
-    entries = ((shot.number, shot.velocity, shot.final_positions.items()) for shot in shots)
-    log = format_log(entries, aim(settings.table), log_remark(settings))
-    write_text(out / 'output.log', log)
+    write_text(out / 'output.log', log_of(settings, shots))
     print(verdict(settings, shots))
     files = ['output.log']
     if not options.log_only:
@@ -68,6 +65,7 @@ def _draw(
     from pool_sim_ros.report import outputs, page
     from pool_sim_ros.report.comparison import compare
     from pool_sim_ros.report.files import write_text
+    from pool_sim_ros.report.played import log_of
 
     # The user's own style must not change the pictures.
     matplotlib.rcdefaults()
@@ -85,7 +83,8 @@ def _draw(
         for shot in _checking(_bar(shots, len(shots), 'Comparison'), interrupts)
         if shot.printed
     ]
-    content = page.Content(settings, shots, comparisons, pictures, films, files)
+    log = log_of(settings, shots)
+    content = page.Content(settings, shots, comparisons, pictures, films, files, log)
     write_text(out / 'report.html', page.make_page(content))
     return [*made, 'report.html']
 

@@ -95,11 +95,25 @@ def figure(
     )
 
 
+def listing(text: str, caption: str) -> Html:
+    """Return a text line by line, as it is; the page's style numbers the lines."""
+    lines = ''.join(f'<span>{to_html(line)}\n</span>' for line in text.split('\n'))
+    return Html(
+        f'<figure class="listing"><figcaption>{to_html(caption)}.</figcaption>'
+        f'<pre>{lines}</pre></figure>'
+    )
+
+
+def link(path: str, text: str | None = None) -> Html:
+    """Return a link to a file beside the page; its text is the path if there is no other."""
+    return Html(f'<a href="{to_html(path)}">{to_html(text or path)}</a>')
+
+
 def ball_name(ball: Ball) -> Cell:
     """Return a spot of a ball's colour and its label."""
     color = ' '.join(f'{round(255 * level)}' for level in ball.color)
     swatch = f'<span class="swatch" style="background: rgb({color})"></span>'
-    return Cell(swatch + to_html(ball.label))
+    return Cell(swatch + to_html(ball.label), 'label')
 
 
 def number(value: float, decimals: int) -> str:

@@ -3,34 +3,32 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import pool_sim_ros
-from pool_sim_ros.me212 import inches, nearest_ball
-from pool_sim_ros.physics import INCH, EventKind
-from pool_sim_ros.report.comparison import Comparison
+from pool_sim_ros.physics import INCH
+from pool_sim_ros.report.comparison import Comparison, final_inches, greatest_difference
 from pool_sim_ros.report.comparison_page import comparison_section
+from pool_sim_ros.report.listing_lines import listing_lines_section
 from pool_sim_ros.report.markup import (
     Html,
     ball_name,
     figure,
     fill,
     join,
+    link,
     number,
     pair,
     short,
     table,
-    to_html,
 )
 from pool_sim_ros.report.mathml import with_formulae
+from pool_sim_ros.report.outline import contents, list_of, numbered
 from pool_sim_ros.report.part_one import example
 from pool_sim_ros.report.played import PlayedShot, verdict
+from pool_sim_ros.report.shots_page import shots_section
 from pool_sim_ros.simulator import Settings
-
-LAYOUT_FIGURE = 3
-"""Number of the figure that shows the layout; two figures for each shot follow it."""
 
 POLICY = Html(
     "default-src 'none'; img-src data:; media-src 'self' file:; "
@@ -56,6 +54,8 @@ class Content:
         Number of a shot -> path of its film relative to the page.
     files : sequence of str
         Paths of the other files, relative to the page.
+    log : str
+        Listing 1 of this run.
     """
 
     settings: Settings
@@ -64,42 +64,59 @@ class Content:
     pictures: Mapping[str, bytes]
     films: Mapping[int, str]
     files: Sequence[str]
+    log: str
 
 
 def make_page(content: Content) -> str:
     """Return the page as HTML, with all pictures inside."""
-    sections = join(
-        [
-            _part_1(content),
-            _part_2(content),
-            _shots(content),
-            comparison_section(content.settings.table, content.comparisons),
-        ],
-        '\n',
+    sections = numbered(
+        join(
+            [
+                _part_1(content),
+                _part_2(content),
+                shots_section(content.log, content.shots, content.pictures, content.films),
+                comparison_section(content.settings.table, content.comparisons),
+                listing_lines_section(),
+            ],
+            '\n',
+        )
     )
-    headings = re.findall('<h2 id="(.+?)">(.+?)</h2>', sections)
     page = fill(
         'page.html',
         policy=POLICY,
         style=fill('style.css'),
         version=pool_sim_ros.__version__,
         ball_count=len(content.settings.table.balls),
-        verdict=_verdict(content),
-        contents=join(
-            (Html(f'<li><a href="#{name}">{title}</a></li>') for name, title in headings), '\n'
-        ),
+        findings=_findings(content),
+        contents=contents(sections),
+        figures=list_of('Figure', sections),
+        tables=list_of('Table', sections),
+        listings=list_of('Listing', sections),
         sections=sections,
-        files=join((_link(name) for name in content.files), ', '),
+        files=join((link(name) for name in content.files), ', '),
     )
     return with_formulae(page)
 
 
-def _verdict(content: Content) -> Html:
+def _findings(content: Content) -> Html:
+    """Return the result of the run, and how far the exact result is from the print."""
     settings = content.settings
     how = ['time slicing with slices of ', short(settings.time_slice), ' s, as the listing does it']
     if settings.report_integrator == 'event':
         how = ['the exact integrator, from contact to contact']
-    return join(['Computed by ', *how, '. ', verdict(settings, content.shots)], '')
+    found = ['Computed by ', *how, '. ', verdict(settings, content.shots)]
+    off = [
+        (*greatest_difference(final_inches(each.exact), each.printed), each.number)
+        for each in content.comparisons
+    ]
+    if off:
+        most, ball, shot = max(off)
+        found += [
+            ' The exact result of the same equations differs from the print by up to ',
+            f'{most:.2f} in (ball {settings.table.labels[ball]} in shot {shot}); ',
+            'section 4 has the reasons.',
+        ]
+    return join(found, '')
 
 
 def _part_1(content: Content) -> Html:
@@ -122,14 +139,14 @@ def _part_1(content: Content) -> Html:
         setup_picture=figure(
             content.pictures,
             'images/Part_1_setup.png',
-            'Figure 1: set-up',
+            'Figure 1: Part 1 set-up',
             'Ball a moves past the centre of ball b at the offset e.',
             'set-up',
         ),
         construction_picture=figure(
             content.pictures,
             'images/Part_1_construction.png',
-            'Figure 2: construction lines',
+            'Figure 2: Part 1 construction lines',
             'The balls at impact, with the line of centres n, the tangent t and their angles.',
             'set-up',
         ),
@@ -147,7 +164,7 @@ def _part_1(content: Content) -> Html:
         outcome=table(
             ['Law', 'Ball', 'vₙ before', 'vₜ before', 'vₙ after', 'vₜ after', '[x, y] after'],
             rows,
-            'Velocities of the example, m/s; t points to the left of n.',
+            'Velocities of the example, m/s. The tangent t points to the left of n.',
             (1,),
         ),
     )
@@ -178,92 +195,25 @@ def _part_2(content: Content) -> Html:
     ]
     # Equation 8 as the report has it: its own speed, slice, ball and distance.
     error = math.atan(4 * 39.3701 * 1e-5 / 2.25)
-    method = fill(
-        f'{settings.report_integrator}.html',
-        time_slice=short(settings.time_slice),
-        angle_error=f'{math.degrees(error):.4f}',
-        distance_error=f'{math.sin(error) * 2000:.4f}',
-    )
+    method = fill(f'{settings.report_integrator}.html', time_slice=short(settings.time_slice))
     return fill(
         'part_2.html',
         ball_count=len(given.balls),
         layout_picture=figure(
             content.pictures,
             'images/Table_layout.png',
-            f'Figure {LAYOUT_FIGURE}: the table',
+            'Figure 3: Table layout',
             'The table from above with all balls where they start.',
         ),
-        constants=table(['Constant', 'Value'], constants, 'The table.', (1,)),
+        constants=table(['Constant', 'Value'], constants, 'Constants of the table.', (1,)),
         balls=table(
             ['Ball', 'Start, in', 'Start, m', 'Radius, in', 'Mass, g'],
             balls,
-            'Table 1: the balls and where they start, [x, y].',
+            'Table 1: Starting positions of the balls, [x, y].',
         ),
         deceleration=f'{given.deceleration:g}',
         ball_friction=given.ball_friction,
+        angle_error=f'{math.degrees(error):.4f}',
+        distance_error=f'{math.sin(error) * 2000:.4f}',
         method=method,
     )
-
-
-def _shots(content: Content) -> Html:
-    heading = Html('<h2 id="shots">3 The shots</h2>')
-    return join([heading, *(_shot(content, shot) for shot in content.shots)], '\n')
-
-
-def _shot(content: Content, shot: PlayedShot) -> Html:
-    kinds = shot.trajectory.events['kind']
-    first_figure = LAYOUT_FIGURE + 2 * shot.number - 1
-    aim = f', toward ball {shot.table.labels[nearest_ball(shot.table)]}' if shot.number == 4 else ''
-    film = content.films.get(shot.number)
-    return fill(
-        'shot.html',
-        number=shot.number,
-        velocity=pair(shot.velocity, 3),
-        speed=f'{math.hypot(*shot.velocity):.3f}',
-        direction=number(math.degrees(math.atan2(*reversed(shot.velocity))), 3),
-        aim=aim,
-        duration=f'{shot.trajectory.duration:.3f}',
-        ball_contacts=int((kinds == EventKind.BALL_BALL).sum()),
-        cushion_contacts=int((kinds == EventKind.CUSHION).sum()),
-        start_picture=figure(
-            content.pictures,
-            f'images/Simulation_{shot.number}_start.png',
-            f'Figure {first_figure}: simulation {shot.number}, start',
-            f'The table before simulation {shot.number}.',
-        ),
-        end_picture=figure(
-            content.pictures,
-            f'images/Simulation_{shot.number}_end.png',
-            f'Figure {first_figure + 1}: simulation {shot.number}, end. Dashed circles: where the '
-            'balls that moved started; lines: their paths',
-            f'The table after simulation {shot.number}, with the path of each ball that moved.',
-        ),
-        film=_film(shot.number, film) if film else '',
-        positions=_positions(shot),
-    )
-
-
-def _film(shot: int, path: str) -> Html:
-    return Html(
-        f'<figure class="film"><video controls preload="metadata" src="{to_html(path)}"></video>'
-        f'<figcaption>Film of simulation {shot} ({_link(path, "file")}).</figcaption></figure>'
-    )
-
-
-def _link(path: str, text: str | None = None) -> Html:
-    return Html(f'<a href="{to_html(path)}">{to_html(text or path)}</a>')
-
-
-def _positions(shot: PlayedShot) -> Html:
-    head, rows = ['Ball', 'End, m', 'End, in'], []
-    if shot.printed:
-        head += ['Printed, in', 'Difference, in']
-    for ball in shot.table.balls:
-        end = shot.final_positions[ball.label]
-        row = [ball_name(ball), pair(end, 6), pair([part / INCH for part in end], 2)]
-        if shot.printed:
-            printed = shot.printed[ball.label]
-            off = [inches(here) - there for here, there in zip(end, printed, strict=True)]
-            row += [pair(printed, 2), pair(off, 2)]
-        rows.append(row)
-    return table(head, rows, f'End positions of simulation {shot.number}, [x, y].')

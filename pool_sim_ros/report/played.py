@@ -10,6 +10,7 @@ import numpy as np
 from pool_sim_ros.me212 import (
     attitude_to_nearest,
     cue_velocity,
+    format_log,
     inches,
     is_report_table,
     nearest_ball,
@@ -115,6 +116,12 @@ def verdict(settings: Settings, shots: Sequence[PlayedShot]) -> str:
     differing = settings.deviations
     why = f'; the print is not of this run ({", ".join(differing)})' if differing else ''
     return f'{equal} of {printed} end positions equal the printed ones to the last digit{why}.'
+
+
+def log_of(settings: Settings, shots: Iterable[PlayedShot]) -> str:
+    """Return the log of a run, in the form of Listing 1."""
+    entries = ((shot.number, shot.velocity, shot.final_positions.items()) for shot in shots)
+    return format_log(entries, aim(settings.table), log_remark(settings))
 
 
 def log_remark(settings: Settings) -> str | None:

@@ -136,4 +136,4 @@ class Publishers:
         return self._node.context.ok()
 
     def _create(self, topic: interface.Topic) -> Publisher:
-        return self._node.create_publisher(topic.type, topic.private, topic.qos)
+        return self._node.create_publisher(topic.type, topic.private, topic.publisher_qos)

@@ -10,7 +10,7 @@ from pool_sim_ros.report.comparison_page import comparison_section
 
 def test_the_exact_positions_are_marked_where_they_differ_from_the_print(page, settings, shots):
     rows = page.table('Exact end positions')
-    marked = page.bold['Exact end positions [x, y], inches.']
+    marked = page.bold['Table G: Exact end positions [x, y], inches.']
     differing = []
     for index, row in enumerate(rows):
         for shot, cell in zip(shots.values(), row[1:], strict=True):

@@ -11,6 +11,8 @@ from pool_sim_ros.report.markup import (
     figure,
     fill,
     join,
+    link,
+    listing,
     number,
     pair,
     short,
@@ -99,3 +101,15 @@ def test_captions_and_descriptions_are_text():
     html = figure({'a"b.png': b''}, 'a"b.png', '<i>', '"><script>')
     assert skeleton(html) == skeleton(figure({'a.png': b''}, 'a.png', 'i', 'script'))
     assert skeleton(table(['a'], [], '<b>"')) == skeleton(table(['a'], [], 'b'))
+
+
+def test_a_listing_holds_its_lines_as_they_are():
+    html = listing('a <b>\n\n  c', 'Listing 1: Output')
+    page = Page(html)
+    assert page.text == 'Listing 1: Output.a <b>\n\n  c\n'
+    assert html.count('<span>') == 3
+
+
+def test_a_link_shows_its_path_or_a_text():
+    assert link('a&b.log') == '<a href="a&amp;b.log">a&amp;b.log</a>'
+    assert link('a.log', '<file>') == '<a href="a.log">&lt;file&gt;</a>'

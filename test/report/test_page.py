@@ -22,7 +22,7 @@ def test_end_positions_stand_beside_the_printed_ones(page, shots, number):
 
 
 def test_the_given_data_are_those_of_the_report(page):
-    constants = dict(page.table('The table'))
+    constants = dict(page.table('Constants of the table'))
     assert constants['Length and width'] == '2.2352 m, 1.1176 m'
     assert constants['Gravity'] == '9.80665 m/s²'
     friction = [value for name, value in constants.items() if 'Friction' in name]
@@ -35,9 +35,59 @@ def test_the_given_data_are_those_of_the_report(page):
     assert len(balls) == 11
 
 
-def test_the_page_has_all_equations_and_says_how_it_compares(page):
-    for tag in range(1, 11):
-        assert f'({tag})' in page.text
+@pytest.fixture(scope='module')
+def html(settings, shots, comparisons):
+    """The same page as HTML."""
+    return html_of(settings, list(shots.values()), comparisons)
+
+
+def test_the_equations_stand_in_the_report_s_order_with_its_matrices(html):
+    formulae = html.split('<div class="formula">')[1:]
+    numbers = [re.search(r'<span class="number">\((\d+)\)</span>', each) for each in formulae]
+    tags = [int(number[1]) for number in numbers if number]
+    assert tags == list(range(1, 11))
+    with_matrix = [
+        int(number[1])
+        for number, formula in zip(numbers, formulae, strict=True)
+        if number and '<mtable' in formula.partition(number[0])[0]
+    ]
+    assert with_matrix == [5, 7]
+
+
+def test_the_exact_integrator_leaves_no_equation_out(other_settings):
+    html = html_of(other_settings, list(play_shots(other_settings, (3,))))
+    tags = re.findall(r'<span class="number">\((\d+)\)</span>', html)
+    assert tags == [str(tag) for tag in range(1, 11)]
+
+
+def test_the_abstract_has_the_result_and_how_far_the_exact_one_is_from_the_print(html, comparisons):
+    abstract = Page(html[html.index('<h2 id="abstract"') : html.index('</section>')]).text
+    assert '44 of 44 end positions equal the printed ones' in abstract
+    off = max(abs(each.exact.final_positions / 0.0254 - each.printed).max() for each in comparisons)
+    assert f'by up to {off:.2f} in (ball 9 in shot 4)' in abstract
+
+
+def test_contents_and_lists_name_everything_of_the_report_and_every_link_leads_there(html):
+    names = [name for name in Page(html).links if name.startswith('#')]
+    ids = re.findall(' id="(.+?)"', html)
+    assert len(ids) == len(set(ids))
+    assert {name[1:] for name in names} <= set(ids)
+    of_the_report = (
+        *(f'#figure-{number}' for number in range(1, 12)),
+        *(f'#table-{number}' for number in (1, 2)),
+        *(f'#listing-{number}' for number in (1, 2, 3)),
+    )
+    for name in of_the_report:
+        assert names.count(name) == 1
+    assert names.index('#part-1') < names.index('#figure-1') < names.index('#table-1')
+    assert names.index('#table-a') < names.index('#listing-1')
+    sections = ('1.1', '1.2', '1.3', '2.1', '2.2', '2.3')
+    assert [name for name in names if name in {f'#section-{part}' for part in sections}] == [
+        f'#section-{part}' for part in sections
+    ]
+
+
+def test_the_page_says_how_it_compares(page):
     assert '44 of 44 end positions equal the printed ones' in page.text
     # Equation 8 as printed: 0.040102 degrees, 1.3998 mm.
     assert '0.0401' in page.text
@@ -81,7 +131,7 @@ def test_another_table_has_nothing_printed_to_compare_with(other_settings):
     page = page_of(other_settings, shots)
     assert 'printed nothing for this table' in page.text
     assert 'the report printed positions for its own table only' in page.text
-    head = page.tables['End positions of simulation 1, [x, y].'][0]
+    head = page.tables['Table C: End positions of simulation 1, [x, y].'][0]
     assert head == ['Ball', 'End, m', 'End, in']
     assert len(page.table('Table 1')) == 9
     assert 'Printed' not in page.text

@@ -1,6 +1,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from pool_sim_ros.physics import Ball
@@ -47,3 +48,23 @@ def test_coulomb_keeps_momentum_and_the_report_s_law_does_not(settings):
     before = [a * part for part in collision.velocity]
     assert momentum('coulomb') == pytest.approx(before)
     assert momentum('report') != pytest.approx(before, rel=1e-3)
+
+
+@pytest.mark.parametrize('velocity', [(1.2, 0.0), (1.2, 0.6), (-0.7, -0.2)])
+def test_the_matrix_of_equations_5_and_7_rotates_by_the_angles_that_the_page_has(
+    settings, velocity
+):
+    collision = replace(example(settings.table), velocity=velocity)
+    result = collision.collide('coulomb')
+    phi = collision.impact_angle - math.pi / 2
+    in_frame = rotation(phi) @ velocity
+    assert in_frame == pytest.approx((result.normal_before[0], result.tangential_before[0]))
+    after = result.normal_after[0], result.tangential_after[0]
+    assert rotation(-phi) @ after == pytest.approx(result.velocity_a)
+    if velocity[1] == 0.0 < velocity[0]:  # along the x axis the report's own angle is the same
+        assert collision.impact_angle - collision.velocity_angle == pytest.approx(phi)
+
+
+def rotation(phi):
+    """Return the matrix R of the report's Equations 5 and 7."""
+    return np.array([[math.cos(phi), -math.sin(phi)], [math.sin(phi), math.cos(phi)]])

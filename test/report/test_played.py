@@ -8,6 +8,7 @@ from pool_sim_ros.me212 import published_final_positions
 from pool_sim_ros.report.played import (
     ShotError,
     aim,
+    log_of,
     log_remark,
     moved_balls,
     play_shots,
@@ -32,6 +33,16 @@ def test_the_log_remarks_on_every_run_but_the_report_s(settings):
     assert log_remark(settings) is None
     exact = replace(settings, report_integrator='event')
     assert log_remark(exact) == 'Not the run that the report printed: integrator event'
+
+
+def test_the_log_of_some_shots_has_its_head_and_those(settings, shots):
+    parts = log_of(settings, [shots[2], shots[4]]).split('\n\n')
+    assert [part.partition(':')[0] for part in parts] == [
+        'Closest ball to Cue ball',
+        'Simulation 2',
+        'Simulation 4',
+        '',
+    ]
 
 
 @pytest.mark.parametrize('number', [1, 2, 3, 4])

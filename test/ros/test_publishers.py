@@ -1,10 +1,14 @@
 """What the node sends: every frame, and what goes with it."""
 
 import json
+import signal
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import plain_messages
+import pytest
+from process_harness import Process
 from rclpy.duration import Duration
 from ros_harness import Observer
 from shot_frames import shot_frames
@@ -15,6 +19,7 @@ from pool_sim_ros.simulator import Diagnosis, build_settings, default_values, ta
 SETTINGS = build_settings(default_values())
 TABLE = SETTINGS.table
 PATIENCE = Duration(seconds=60.0)
+COUNTING_READER = Path(__file__).parents[1] / 'support' / 'counting_reader.py'
 FRAMES = ('ball_poses', 'ball_velocities', 'collisions')
 
 
@@ -48,6 +53,37 @@ def test_a_shot_is_sent_frame_by_frame_bit_for_bit(ros):
         assert poses == plain_messages.to_poses('table', frame.stamp, frame.positions, radii)
         assert velocities == plain_messages.to_velocities(frame.velocities)
     assert sender.heard('collisions') == [plain_messages.to_collisions(rows) for rows in touched]
+
+
+def test_frames_are_kept_for_half_a_second_at_30_times_real_time(ros):
+    node = ros.node('sender')
+    Publishers(node, SETTINGS)
+    depths = {publisher.topic_name: publisher.qos_profile.depth for publisher in node.publishers}
+    for topic in (interface.BALL_POSES, interface.BALL_VELOCITIES, interface.COLLISIONS):
+        assert depths[topic.of(node.get_fully_qualified_name())] >= 0.5 * 30 * 60
+
+
+@pytest.mark.soak
+def test_a_reader_that_did_not_run_for_800_frames_gets_all_of_them(ros):
+    """0.44 s at 30 times real time; shared memory holds 512 messages for it, of all topics."""
+    node = ros.node('sender')
+    output = Publishers(node, SETTINGS)
+    frame, *_ = shot_frames(TABLE, (-4.0, 0.3))
+    with Process(COUNTING_READER, node.get_fully_qualified_name(), '800') as reader:
+        reader.wait_for('matched')
+        ros.spin_until(
+            lambda: (
+                output._poses.get_subscription_count()
+                and output._velocities.get_subscription_count()
+            ),
+            'the reader',
+        )
+        reader.signal(signal.SIGSTOP)
+        for _ in range(800):
+            output.frame(frame)
+        reader.signal(signal.SIGCONT)
+        reader.wait_for('all of them')
+        assert reader.wait() == 0
 
 
 def test_what_was_made_ready_for_other_ticks_is_not_sent(ros):

@@ -6,8 +6,9 @@ from html.parser import HTMLParser
 import pytest
 
 from pool_sim_ros.report.page import Content, make_page
+from pool_sim_ros.report.played import log_of
 
-VOID = {'meta', 'img', 'br', 'mspace'}
+VOID = {'meta', 'img', 'br', 'wbr', 'mspace'}
 
 
 class Page(HTMLParser):
@@ -93,8 +94,9 @@ class AnyPicture(dict):
 def html_of(settings, shots, comparisons=(), films=None):
     """Return the HTML of the report's page, with empty pictures."""
     pytest.importorskip('latex2mathml', reason='pip install latex2mathml')
-    content = Content(settings, shots, comparisons, AnyPicture(), films or {}, ['output.log'])
-    return make_page(content)
+    log = log_of(settings, shots)
+    pictures, files = AnyPicture(), ['output.log']
+    return make_page(Content(settings, shots, comparisons, pictures, films or {}, files, log))
 
 
 def page_of(settings, shots, comparisons=(), films=None):
