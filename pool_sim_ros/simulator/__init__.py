@@ -23,7 +23,9 @@ if TYPE_CHECKING:
         PARAMETERS,
         Change,
         ParameterSpec,
+        ParameterValue,
         default_values,
+        parameters_of,
     )
     from pool_sim_ros.simulator.parameter_values import ParameterError, coerce, values_from
     from pool_sim_ros.simulator.replay import replay_frames
@@ -66,6 +68,7 @@ else:
             'Pacer': 'pacer',
             'ParameterError': 'parameter_values',
             'ParameterSpec': 'parameter_table',
+            'ParameterValue': 'parameter_table',
             'Phase': 'shot_request',
             'Response': 'shot_request',
             'Runner': 'runner',
@@ -77,6 +80,7 @@ else:
             'build_settings': 'settings',
             'coerce': 'parameter_values',
             'default_values': 'parameter_table',
+            'parameters_of': 'parameter_table',
             'parse_request': 'shot_request',
             'near_misses': 'parameter_names',
             'open_bounded': 'bounded_file',
@@ -111,6 +115,7 @@ __all__ = [
     'Pacer',
     'ParameterError',
     'ParameterSpec',
+    'ParameterValue',
     'Phase',
     'Response',
     'Runner',
@@ -122,6 +127,7 @@ __all__ = [
     'build_settings',
     'coerce',
     'default_values',
+    'parameters_of',
     'parse_request',
     'near_misses',
     'open_bounded',
