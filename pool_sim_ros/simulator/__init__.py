@@ -12,10 +12,17 @@ from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from pool_sim_ros.simulator.bounded_file import FileError, open_bounded, read_text
-    from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
-    from pool_sim_ros.simulator.frame import COLLISION_COLUMNS, VELOCITY_COLUMNS, Block, Frame
+    from pool_sim_ros.simulator.command_log import CommandLog, LogError
+    from pool_sim_ros.simulator.frame import (
+        COLLISION_COLUMNS,
+        SPIN_COLUMNS,
+        VELOCITY_COLUMNS,
+        Block,
+        Frame,
+    )
     from pool_sim_ros.simulator.health import Diagnosis
     from pool_sim_ros.simulator.heard import response_from_json, state_from_json
+    from pool_sim_ros.simulator.log_reader import read_log
     from pool_sim_ros.simulator.output import Output
     from pool_sim_ros.simulator.pacer import Pacer
     from pool_sim_ros.simulator.parameter_names import near_misses
@@ -73,6 +80,7 @@ else:
             'Response': 'shot_request',
             'Runner': 'runner',
             'SECOND_NS': 'sim_time',
+            'SPIN_COLUMNS': 'frame',
             'Settings': 'settings',
             'Simulation': 'simulation',
             'Stepped': 'steps',
@@ -84,7 +92,7 @@ else:
             'parse_request': 'shot_request',
             'near_misses': 'parameter_names',
             'open_bounded': 'bounded_file',
-            'read_log': 'command_log',
+            'read_log': 'log_reader',
             'read_text': 'bounded_file',
             'replay_frames': 'replay',
             'response_from_json': 'heard',
@@ -120,6 +128,7 @@ __all__ = [
     'Response',
     'Runner',
     'SECOND_NS',
+    'SPIN_COLUMNS',
     'Settings',
     'Simulation',
     'Stepped',
