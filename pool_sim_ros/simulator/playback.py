@@ -247,7 +247,7 @@ class Playback:
     ) -> NDArray[np.float64]:
         """Return each of (k, n, 4) quaternions with the sign that is nearer to the one before.
 
-        Both signs are one orientation. Before the first is the last of the block before, or `start`.
+        Both signs are one orientation. The first follows the block before, or `start`.
         """
         block = self._block
         before = start if block is None or block.orientations is None else block.orientations[-1]
