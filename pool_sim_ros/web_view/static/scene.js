@@ -1,0 +1,95 @@
+// One picture per frame: the balls as they are, or as they were at a time of the latest strike.
+
+import { canStrike, page } from './page.js';
+import { isOver } from './painter.js';
+import { $, showContacts, showReadings, showResult } from './panel.js';
+import { showStatus } from './status.js';
+import { layoutIs } from './strike.js';
+import { Words } from './words.js';
+
+const seconds = () => performance.now() / 1000;
+let before = seconds();
+
+// Fit the table into the window.
+export function layOut() {
+  if (!page.table) return;
+  const width = page.canvas.parentElement.clientWidth;
+  const flat = window.innerHeight < 500; // a phone on its side
+  const height = Math.max(240, window.innerHeight * (flat ? 0.85 : width < 600 ? 0.56 : 0.66));
+  page.painter.fit(page.table, width, height, $('axes').checked ? page.units : null);
+  page.words = new Words(page.table, page.painter.geometry.upright);
+  page.unfit = true;
+  page.dirty = true;
+}
+
+// Results stand beside no layout but their own.
+function showFits(places) {
+  const { strike, result, state } = page;
+  const ends = result && page.table.balls.map(({ label }) => result.final_positions[label]);
+  const fits = ends?.every(Boolean) && layoutIs(places, ends);
+  showResult(fits ? result : null, page.table, page.words, page.units);
+  $('print').hidden = !(strike.exact && fits);
+  page.standing = strike.fits(places) || Boolean(state?.moving || state?.computing);
+  $('history').disabled = !(strike.shot && page.standing);
+}
+
+function lines() {
+  const { aim, strike, prediction, replay } = page;
+  if (aim.active && replay.time === null) {
+    return prediction ? [{ paths: prediction.paths, style: 'strong' }] : [];
+  }
+  if (!strike.paths || !page.standing) return [];
+  const own = { paths: strike.paths, style: 'faint' };
+  return strike.exact && $('exact').checked ? [own, { paths: strike.exact, style: 'other' }] : [own];
+}
+
+function picture() {
+  const { replay, strike, timeline } = page;
+  const { time } = replay;
+  if (time === null || !strike.shot) {
+    return { places: page.places, turns: page.turns, sunk: page.sunk, time: timeline.time, flashes: page.flashes };
+  }
+  const { shot } = strike;
+  const flashes = shot.events.map(([stamp, , , , x, y, speed]) => ({ stamp, x, y, speed }));
+  return { places: shot.places(time), turns: shot.turnsAt(time), sunk: shot.sunk(time), time, flashes };
+}
+
+function draw() {
+  requestAnimationFrame(draw);
+  const now = seconds();
+  const elapsed = now - before;
+  before = now;
+  const { timeline, replay, strike, aim, hand } = page;
+  if (!page.table || !timeline.newest) return;
+  timeline.advance(now);
+  const places = timeline.places();
+  if (places.length !== 2 * page.table.balls.length) return;
+  while (page.flashes.length && isOver(page.flashes[0], timeline.time)) page.flashes.shift();
+  replay.advance(elapsed);
+  const still = page.places?.length === places.length
+    && places.every((place, i) => place === page.places[i]);
+  Object.assign(page, { places, turns: timeline.turns(), sunk: timeline.sunk() });
+  if (canStrike() === $('shoot').disabled) showStatus();
+  if (!still || page.unfit) {
+    page.unfit = false;
+    showFits(places);
+    replay.show();
+    hand.show();
+  }
+  const live = replay.time === null;
+  showContacts(page.standing ? strike.shot : null, page.words,
+    live ? strike.since(timeline.time) ?? 0 : replay.time, live);
+  const speeds = live ? timeline.speeds() : strike.shot.speeds(replay.time);
+  showReadings(live ? timeline.time : replay.time, speeds, page.state?.pocketed);
+  if (still && live && !page.flashes.length && !page.dirty) return;
+  page.dirty = aim.active || Boolean(hand.held);
+  const scene = picture();
+  page.shown = scene.places;
+  page.painter.draw({ ...scene, aim: aim.active && live ? aim : null, lines: lines(), hand: hand.held });
+  page.drawn += 1;
+}
+
+export function start() {
+  window.addEventListener('resize', layOut);
+  requestAnimationFrame(draw);
+}
