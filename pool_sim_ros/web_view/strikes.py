@@ -46,10 +46,9 @@ class Strikes:
         """Where the balls lay before the latest strike, (n, 2) in m; None if it is not known."""
         return None if self._fields is None else np.array(self._fields['start'])
 
-    def saw(self, positions: Layout, *, at_rest: bool) -> None:
-        """Note where the balls are, (n, 2) in m, and whether they are known to rest there."""
-        if at_rest:
-            self._layout = positions
+    def resting(self, positions: Layout) -> None:
+        """Note where the balls rest, (n, 2) in m."""
+        self._layout = positions
 
     def forget(self) -> None:
         """Withdraw the latest strike."""

@@ -60,6 +60,7 @@ class View:
         self._compiled = False
         self._state: dict[str, Any] | None = None
         self._frame: bytes | None = None
+        self._early: bytes | None = None
         self._strikes = Strikes(self._tell_strike, self._time_slice)
         self._printed = published_final_positions()
         self._loop = asyncio.get_running_loop()
@@ -208,6 +209,9 @@ class View:
         self._strikes.forget()
         fields = {**table_to_fields(self._table), 'is_report': is_report_table(self._table)}
         self.pages.tell('table', fields, keep=True)
+        early, self._early = self._early, None
+        if early is not None:
+            self._show_poses(early)
         self._run(self._compile(self._table))
 
     async def _compile(self, table: Table) -> None:
@@ -226,21 +230,26 @@ class View:
     def _look_for_frame(self) -> None:
         self._look = self._loop.call_later(FRAME_PERIOD, self._look_for_frame)
         poses = self._bridge.latest_poses()
-        if poses is None:
-            return
-        if self._table is None:
-            return  # it is latched, and comes in a moment
-        whole = self._turns
+        if poses is not None:
+            self._show_poses(poses)
+
+    def _show_poses(self, poses: bytes) -> None:
+        table, whole = self._table, self._turns
         try:
             frame = page_frame(poses, whole=whole)
-            check_count(frame, len(self._table.balls), whole=whole)
+            if table is not None:
+                check_count(frame, len(table.balls), whole=whole)
         except ValueError as error:
             self._bridge.left_out(error)
+            return
+        if table is None:
+            self._early = poses
             return
         state, before = self._state, self._frame
         still = before is not None and before[8:] == frame[8:]
         resting = state is not None and not state['moving'] and not state['computing']
-        self._strikes.saw(frame_positions(frame, whole=whole), at_rest=still or resting)
+        if still or resting:
+            self._strikes.resting(frame_positions(frame, whole=whole))
         self._frame = frame
         self.pages.show(frame)
 
