@@ -29,7 +29,9 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
     from pool_sim_ros.physics.law_names import (
         BALL_FRICTION_LAWS,
+        CUSHION_MODELS,
         DISC_FRICTION_LAWS,
+        FRICTION_BOUNDS,
         BallFriction,
         CushionModel,
         DiscFriction,
@@ -38,11 +40,16 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.log import EventKind
     from pool_sim_ros.physics.me212_table import report_table
     from pool_sim_ros.physics.outcomes import Outcomes, ShotCancelled, ShotTooLong
-    from pool_sim_ros.physics.pool_tables import POOL_TABLES, PoolTableName
+    from pool_sim_ros.physics.pool_tables import (
+        POOL_TABLES,
+        PoolTable,
+        PoolTableName,
+        pool_table_dimensions,
+    )
     from pool_sim_ros.physics.racks import RackKind, rack
     from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
-    from pool_sim_ros.physics.table import Table
+    from pool_sim_ros.physics.table import MOTIONS, Motion, Table
     from pool_sim_ros.physics.table_file import table_from_fields, table_to_fields
     from pool_sim_ros.physics.tolerances import V_MIN
     from pool_sim_ros.physics.trajectory import Trajectory
@@ -52,7 +59,9 @@ else:
         __name__,
         {
             'BALL_FRICTION_LAWS': 'law_names',
+            'CUSHION_MODELS': 'law_names',
             'DISC_FRICTION_LAWS': 'law_names',
+            'FRICTION_BOUNDS': 'law_names',
             'Ball': 'balls',
             'BallFriction': 'law_names',
             'DiscFriction': 'law_names',
@@ -69,7 +78,10 @@ else:
             'CushionModel': 'law_names',
             'Cushions': 'cushions',
             'FrictionBound': 'law_names',
+            'MOTIONS': 'table',
+            'Motion': 'table',
             'POOL_TABLES': 'pool_tables',
+            'PoolTable': 'pool_tables',
             'PoolTableName': 'pool_tables',
             'RackKind': 'racks',
             'V_MIN': 'tolerances',
@@ -80,6 +92,7 @@ else:
             'compile_kernels': 'shots',
             'cue_strike': 'cue',
             'pool_table': 'game_tables',
+            'pool_table_dimensions': 'pool_tables',
             'rack': 'racks',
             'report_table': 'me212_table',
             'separated': 'separation',
@@ -93,9 +106,12 @@ else:
 
 __all__ = [
     'BALL_FRICTION_LAWS',
+    'CUSHION_MODELS',
     'DISC_FRICTION_LAWS',
+    'FRICTION_BOUNDS',
     'INCH',
     'INTEGRATORS',
+    'MOTIONS',
     'REPORT_TIME_SLICE',
     'Ball',
     'BallFriction',
@@ -105,8 +121,10 @@ __all__ = [
     'EventKind',
     'FrictionBound',
     'Integrator',
+    'Motion',
     'Outcomes',
     'POOL_TABLES',
+    'PoolTable',
     'PoolTableName',
     'RackKind',
     'ShotCancelled',
@@ -122,6 +140,7 @@ __all__ = [
     'compile_kernels',
     'cue_strike',
     'pool_table',
+    'pool_table_dimensions',
     'rack',
     'report_table',
     'separated',

@@ -244,7 +244,11 @@ def compile_kernels(table: Table) -> None:
     # What is compiled depends on types alone. Two balls at rest need neither memory nor time.
     small = replace(table, balls=table.balls[:2])
     still, layout = np.zeros((len(small.balls), 2)), np.array(small.positions)
-    for integrator in INTEGRATORS:
+    spins = small.motion == 'ball'
+    for integrator in ('event',) if spins else INTEGRATORS:
         shot = simulate(small, still, positions=layout, integrator=integrator, until=0.0)
         shot.positions(0.0)
+        if spins:
+            shot.spins(0.0)
+            shot.orientations(0.0)
         simulate_many(small, still[np.newaxis], integrator=integrator, until=0.0)

@@ -18,10 +18,12 @@ from pool_sim_ros.simulator import (
     Change,
     ParameterError,
     ParameterSpec,
+    ParameterValue,
     Settings,
     build_settings,
     coerce,
     near_misses,
+    parameters_of,
     values_from,
 )
 
@@ -42,9 +44,10 @@ def declare_parameters(node: Node) -> Settings:
     settings = build_settings(values)
     for name, ours in near_misses(overrides).items():
         node.get_logger().warn(f'{name} is not a parameter of this node; did you mean {ours}?')
+    specs = parameters_of(settings.table.motion)
     node.declare_parameters(
         '',
-        [(name, values[name], describe(spec)) for name, spec in PARAMETERS.items()],
+        [(name, _declarable(values[name]), describe(spec)) for name, spec in specs.items()],
         ignore_override=True,
     )
     return settings
@@ -72,10 +75,13 @@ def describe(spec: ParameterSpec) -> ParameterDescriptor:
 def on_change(node: Node, apply: Callable[[Settings], None]) -> None:
     """Check every later change, and call `apply` with the settings after it."""
 
+    names = parameters_of(node.get_parameter('table.motion').value)
+    empty = Parameter('', value=[])
+
     def settings_with(parameters: list[Parameter]) -> Settings:
-        values = {name: node.get_parameter(name).value for name in PARAMETERS}
+        values = {name: node.get_parameter_or(name, empty).value for name in names}
         for parameter in parameters:
-            if parameter.name in PARAMETERS:
+            if parameter.name in names:
                 values[parameter.name] = coerce(parameter.name, parameter.value)
         return build_settings({name: coerce(name, value) for name, value in values.items()})
 
@@ -90,12 +96,17 @@ def on_change(node: Node, apply: Callable[[Settings], None]) -> None:
         return SetParametersResult(successful=True)
 
     def changed(parameters: list[Parameter]) -> None:
-        if any(parameter.name in PARAMETERS for parameter in parameters):
+        if any(parameter.name in names for parameter in parameters):
             apply(settings_with([]))
 
     node.add_pre_set_parameters_callback(in_their_own_types)
     node.add_on_set_parameters_callback(check)
     node.add_post_set_parameters_callback(changed)
+
+
+def _declarable(value: ParameterValue) -> ParameterValue | Parameter.Type:
+    """Return a value as rclpy declares it: it takes an empty list for one of bytes."""
+    return Parameter.Type.DOUBLE_ARRAY if value == [] else value
 
 
 def _as_declared(parameter: Parameter) -> Parameter:

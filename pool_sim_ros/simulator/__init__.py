@@ -12,10 +12,17 @@ from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from pool_sim_ros.simulator.bounded_file import FileError, open_bounded, read_text
-    from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
-    from pool_sim_ros.simulator.frame import COLLISION_COLUMNS, VELOCITY_COLUMNS, Block, Frame
+    from pool_sim_ros.simulator.command_log import CommandLog, LogError
+    from pool_sim_ros.simulator.frame import (
+        COLLISION_COLUMNS,
+        SPIN_COLUMNS,
+        VELOCITY_COLUMNS,
+        Block,
+        Frame,
+    )
     from pool_sim_ros.simulator.health import Diagnosis
     from pool_sim_ros.simulator.heard import response_from_json, state_from_json
+    from pool_sim_ros.simulator.log_reader import read_log
     from pool_sim_ros.simulator.output import Output
     from pool_sim_ros.simulator.pacer import Pacer
     from pool_sim_ros.simulator.parameter_names import near_misses
@@ -23,7 +30,9 @@ if TYPE_CHECKING:
         PARAMETERS,
         Change,
         ParameterSpec,
+        ParameterValue,
         default_values,
+        parameters_of,
     )
     from pool_sim_ros.simulator.parameter_values import ParameterError, coerce, values_from
     from pool_sim_ros.simulator.replay import replay_frames
@@ -66,10 +75,12 @@ else:
             'Pacer': 'pacer',
             'ParameterError': 'parameter_values',
             'ParameterSpec': 'parameter_table',
+            'ParameterValue': 'parameter_table',
             'Phase': 'shot_request',
             'Response': 'shot_request',
             'Runner': 'runner',
             'SECOND_NS': 'sim_time',
+            'SPIN_COLUMNS': 'frame',
             'Settings': 'settings',
             'Simulation': 'simulation',
             'Stepped': 'steps',
@@ -77,10 +88,11 @@ else:
             'build_settings': 'settings',
             'coerce': 'parameter_values',
             'default_values': 'parameter_table',
+            'parameters_of': 'parameter_table',
             'parse_request': 'shot_request',
             'near_misses': 'parameter_names',
             'open_bounded': 'bounded_file',
-            'read_log': 'command_log',
+            'read_log': 'log_reader',
             'read_text': 'bounded_file',
             'replay_frames': 'replay',
             'response_from_json': 'heard',
@@ -111,10 +123,12 @@ __all__ = [
     'Pacer',
     'ParameterError',
     'ParameterSpec',
+    'ParameterValue',
     'Phase',
     'Response',
     'Runner',
     'SECOND_NS',
+    'SPIN_COLUMNS',
     'Settings',
     'Simulation',
     'Stepped',
@@ -122,6 +136,7 @@ __all__ = [
     'build_settings',
     'coerce',
     'default_values',
+    'parameters_of',
     'parse_request',
     'near_misses',
     'open_bounded',

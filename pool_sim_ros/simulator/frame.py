@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,12 +12,16 @@ COLLISION_COLUMNS = ('seq', 't', 'kind', 'a', 'b', 'x', 'y', 'nx', 'ny', 'speed'
 """Columns of `Frame.collisions` and of `~/collisions`.
 
 seq counts from 0 and is never reset; t is sim time, s. Kind 0 is ball a on ball b, kind 1 is ball a
-on cushion b (0: x = 0, 1: x = length, 2: y = 0, 3: y = width). x, y is the point of contact, m;
-nx, ny the unit vector from a to b or into the cushion; speed that of closing, m/s.
+on cushion b (0: x = 0, 1: x = length, 2: y = 0, 3: y = width; where cushions are given their row,
+straight ones first, then noses), kind 3 is ball a caught in pocket b. x, y is the point of contact,
+or the centre of the ball that is caught, m; nx, ny the unit vector from a to b or into the cushion,
+otherwise 0; speed that of closing, or that of the ball, m/s.
 """
 
 VELOCITY_COLUMNS = ('vx', 'vy')
-"""Columns of `Frame.velocities` and of `~/ball_velocities`, m/s."""
+SPIN_COLUMNS = (*VELOCITY_COLUMNS, 'wx', 'wy', 'wz')
+"""Columns of `Frame.velocities` and of `~/ball_velocities`, m/s: of discs, and of balls that spin,
+with their spins in rad/s."""
 
 NO_COLLISIONS: NDArray[np.float64] = np.empty((0, len(COLLISION_COLUMNS)))
 """The collisions of a tick that has none."""
@@ -32,14 +37,20 @@ class Block:
         The first tick, and the one after the last.
     stamps : list of int
         Sim time of each tick, ns.
-    positions, velocities : ndarray of shape (m, n, 2)
-        m, m/s. While the balls rest, every block has the same array of positions.
+    positions : ndarray of shape (m, n, 2)
+        m. While the balls rest, every block has the same array.
+    velocities : ndarray of shape (m, n, 2) or (m, n, 5)
+        In the columns `VELOCITY_COLUMNS`, or `SPIN_COLUMNS`.
     collisions : list of ndarray of shape (k, 10)
         The collisions of each tick, as in `Frame.collisions`.
     moving : bool
         Whether the balls move.
     ends_shot : bool
         Whether the last tick is the first in which all balls are at rest again.
+    orientations : ndarray of shape (m, n, 4), or None
+        Unit quaternions x, y, z, w; None where balls are discs.
+    pocketed : list of tuple of int
+        The balls in pockets at each tick, in the order in which they fell.
     """
 
     first_tick: int
@@ -50,6 +61,8 @@ class Block:
     collisions: list[NDArray[np.float64]]
     moving: bool = False
     ends_shot: bool = False
+    orientations: NDArray[np.float64] | None = None
+    pocketed: Sequence[tuple[int, ...]] = ()
 
 
 @dataclass(eq=False, slots=True)
@@ -91,9 +104,20 @@ class Frame:
 
     @property
     def velocities(self) -> NDArray[np.float64]:
-        """Velocities of the balls, (n, 2), m/s."""
+        """Velocities of the balls, (n, 2), m/s, or (n, 5) with their spins, rad/s."""
         velocities: NDArray[np.float64] = self.block.velocities[self.index]
         return velocities
+
+    @property
+    def orientations(self) -> NDArray[np.float64] | None:
+        """Unit quaternions of the balls, (n, 4); None where they are discs."""
+        turned = self.block.orientations
+        return None if turned is None else turned[self.index]
+
+    @property
+    def pocketed(self) -> tuple[int, ...]:
+        """The balls in pockets, in the order in which they fell."""
+        return self.block.pocketed[self.index] if self.block.pocketed else ()
 
     @property
     def moving(self) -> bool:

@@ -143,7 +143,9 @@ def energy_rise(trajectory: Trajectory) -> float:
     times = trajectory.events['t'][:: len(trajectory.events) // ENERGY_SAMPLES + 1]
     times = np.concatenate([[0.0], times])
     squares = np.sum(trajectory.velocities(times) ** 2, axis=2)
-    masses = trajectory.table.masses
+    table, masses = trajectory.table, trajectory.table.masses
+    if table.motion == 'ball':  # the inertia of a sphere is 2/5 m R^2
+        squares += 0.4 * np.sum(trajectory.spins(times) ** 2, axis=2) * table.radii**2
     energies = 0.5 * squares @ masses
     if energies[0] == 0.0:
         return 0.0

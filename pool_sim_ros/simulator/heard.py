@@ -35,7 +35,10 @@ def response_from_json(text: str) -> dict[str, Any]:
     """
     read = _fields('response', text, _RESPONSE)
     fields: dict[str, Any] = {**dict.fromkeys(_RESPONSE), **read}
-    for name in _NEEDED[fields['phase']]:
+    needed = _NEEDED[fields['phase']]
+    if fields['place'] is not None:  # it has no strike
+        needed = tuple(name for name in needed if name not in ('velocity', 'integrator'))
+    for name in needed:
         if fields[name] is None:
             raise ValueError(f'a response that is {fields["phase"]} has a {name}')
     return fields
@@ -53,7 +56,7 @@ def state_from_json(text: str) -> dict[str, Any]:
     -------
     dict
         paused, moving, computing (bool) and tick (int); sim_time (s) and real_time_factor are
-        numbers or missing, and others may be there too.
+        numbers or missing, pocketed is a list of labels or missing, and others may be there too.
 
     Raises
     ------
@@ -97,6 +100,18 @@ def _are_places(value: object) -> bool:
     return isinstance(value, dict) and all(map(_is_pair, value.values()))
 
 
+def _is_spin(value: object) -> bool:
+    return isinstance(value, list) and len(value) == 3 and all(map(_is_number, value))
+
+
+def _are_numbers(value: object) -> bool:
+    return isinstance(value, dict) and all(map(_is_number, value.values()))
+
+
+def _are_labels(value: object) -> bool:
+    return isinstance(value, list) and all(isinstance(label, str) for label in value)
+
+
 def _is_time(value: Any) -> bool:
     return _is_number(value) and 0 <= value < 2**31  # what a stamp of ROS holds
 
@@ -115,6 +130,10 @@ _RESPONSE: dict[str, Check] = {
     'final_positions': _or_none(_are_places),
     'final_positions_in': _or_none(_are_places),
     'as_printed': _or_none(_is(bool)),
+    'spin': _or_none(_is_spin),
+    'cue': _or_none(_are_numbers),
+    'place': _or_none(_are_places),
+    'pocketed': _or_none(_are_numbers),
 }
 
 _NEEDED: dict[str, tuple[str, ...]] = {
@@ -132,4 +151,5 @@ _STATE: dict[str, Check] = {
     'tick': _is(int),
     'sim_time': _or_none(_is_number),
     'real_time_factor': _or_none(_is_number),
+    'pocketed': _or_none(_are_labels),
 }

@@ -31,6 +31,8 @@ class Job:
         Slice of the integrator `time_slice`, s.
     until : float
         Longest duration, s; a shot that would last longer is cut there.
+    spin : tuple of float or None
+        Of the cue ball, rad/s; None on a table of discs.
     """
 
     table: Table
@@ -39,6 +41,7 @@ class Job:
     integrator: Integrator
     time_slice: float
     until: float
+    spin: tuple[float, float, float] | None = None
     _cancelled: threading.Event = field(default_factory=threading.Event, init=False, repr=False)
 
     def cancel(self) -> None:
@@ -50,6 +53,7 @@ class Job:
         return simulate(
             self.table,
             self.velocity,
+            spins=self.spin,
             positions=self.positions,
             integrator=self.integrator,
             time_slice=self.time_slice,
@@ -63,6 +67,7 @@ def make_job(
     shot: int | None,
     velocity: tuple[float, float],
     positions: NDArray[np.float64],
+    spin: tuple[float, float, float] | None = None,
 ) -> Job:
     """Return the job for a strike.
 
@@ -75,6 +80,8 @@ def make_job(
         Of the cue ball, m/s.
     positions : ndarray of shape (n, 2)
         Where the balls rest, from which any other shot starts, m.
+    spin : tuple of float, optional
+        Of the cue ball, where balls spin, rad/s.
     """
     integrator = settings.integrator if shot is None else settings.report_integrator
     until = settings.max_shot_duration
@@ -87,4 +94,5 @@ def make_job(
         integrator=integrator,
         time_slice=settings.time_slice,
         until=until,
+        spin=spin,
     )

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics import Table, check_layout, separated
+from pool_sim_ros.simulator.layout import IDENTITY, Layout, layout_at, pockets_at
+from pool_sim_ros.simulator.refusals import RefusedError
+from pool_sim_ros.simulator.request_fields import quote
 from pool_sim_ros.simulator.settings import Settings
+from pool_sim_ros.simulator.shot_request import Code
+
+MOST_LABELS = 30
+"""Labels that a message names: a snooker table has 22."""
 
 
 def why_refused(settings: Settings, positions: NDArray[np.float64], frame_id: str) -> str | None:
@@ -21,6 +30,53 @@ def why_refused(settings: Settings, positions: NDArray[np.float64], frame_id: st
     except ValueError as error:
         return str(error)
     return None
+
+
+def check_cue_ball(table: Table, layout: Layout) -> None:
+    """Raise RefusedError where the cue ball, the first, lies in a pocket."""
+    if 0 in layout.pocketed:
+        reason = f'the cue ball {table.labels[0]!r} lies in a pocket; place it on the cloth first'
+        raise RefusedError(Code.CUE_POCKETED, reason)
+
+
+def with_placed(table: Table, layout: Layout, places: Mapping[str, tuple[float, float]]) -> Layout:
+    """Return a layout in which single balls lie elsewhere, not turned.
+
+    Parameters
+    ----------
+    table : Table
+    layout : Layout
+        How all balls lie now.
+    places : mapping
+        Label -> (x, y), m.
+
+    Raises
+    ------
+    RefusedError
+        Where there is no such ball, or one cannot lie there; nothing has changed.
+    """
+    positions = layout.positions.copy()
+    turned = None if layout.orientations is None else layout.orientations.copy()
+    for label, place in places.items():
+        try:
+            ball = table.index(label)
+        except ValueError:
+            known = ', '.join(table.labels[:MOST_LABELS])
+            more = ', ...' if len(table.labels) > MOST_LABELS else ''
+            reason = f'place: there is no ball {quote(label)}; the table has {known}{more}'
+            raise RefusedError(Code.BAD_LAYOUT, reason) from None
+        positions[ball] = place
+        if turned is not None:
+            turned[ball] = IDENTITY
+    for label, pocket in zip(table.labels, pockets_at(table, positions).tolist(), strict=True):
+        if pocket >= 0 and label in places:
+            reason = f'place: ball {label!r} would fall into pocket {pocket}; place it on the cloth'
+            raise RefusedError(Code.BAD_LAYOUT, reason)
+    try:
+        check_layout(table, positions, 'place')
+    except ValueError as error:
+        raise RefusedError(Code.BAD_LAYOUT, str(error)) from None
+    return layout_at(table, positions, turned, layout.pocketed)
 
 
 def next_layout(
@@ -42,7 +98,8 @@ def next_layout(
     try:
         check_layout(table, played, 'final positions')
     except ValueError as error:
-        apart = separated(table, played)
+        # No ball that spins is let through another, and one in a pocket must stay there.
+        apart = separated(table, played) if table.motion == 'disc' else None
         if apart is None:
             return before, f'{error}; the balls are back where they lay before the shot'
         return apart, f'{error}; the balls were moved apart'

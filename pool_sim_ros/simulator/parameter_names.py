@@ -15,6 +15,9 @@ CLOSE_IN_GROUP = 0.65
 """Likeness (difflib's ratio, 0 to 1) of what follows the group in two names that are close:
 `lenght` has 0.83 and `mu_ball_cloth` 0.72, while `height` and `frame` have less than 0.6."""
 
+CLOSE_WHOLE_WORD = 0.75
+"""The same where a name is a whole word of ours: `height` has 0.71 of `nose_height`."""
+
 CLOSE_WORD = 0.7
 """Least likeness of each word in two names that are close: `facter` has 0.83, `clok` 0.89, and the
 last word of `publish_tf` 0.33."""
@@ -45,12 +48,17 @@ def _resembles(name: str) -> str | None:
             rest = name.removeprefix(group)
             ours = [own.removeprefix(group) for own in PARAMETERS if own.startswith(group)]
             found = difflib.get_close_matches(rest, ours, 1, CLOSE_IN_GROUP)
-            return group + found[0] if found else None
+            if not found:
+                return None
+            is_word = rest in found[0].split('_') and _likeness(rest, found[0]) < CLOSE_WHOLE_WORD
+            return None if is_word else group + found[0]
     close = [own for own in PARAMETERS if _is_close(name, own)]
     if close:
         return max(close, key=lambda own: _likeness(name, own))
-    left_out = [own for own in PARAMETERS if own.endswith(f'.{name}') and '_' in name]
-    return left_out[0] if left_out else None
+    if '_' in name or name == 'preset':
+        left_out = [own for own in PARAMETERS if own.endswith(f'.{name}')]
+        return left_out[0] if left_out else None
+    return None
 
 
 def _is_close(name: str, own: str) -> bool:

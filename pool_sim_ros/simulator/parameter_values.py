@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 import reprlib
 import sys
@@ -14,8 +15,8 @@ from pool_sim_ros.simulator.parameter_table import (
     PARAMETERS,
     ParameterSpec,
     ParameterValue,
-    default_values,
 )
+from pool_sim_ros.simulator.presets import preset_values
 
 SHOWN_LENGTH = 60
 """Characters of a wrong value that a message shows."""
@@ -39,6 +40,8 @@ class ParameterError(ValueError):
 def values_from(overrides: Mapping[str, object]) -> dict[str, ParameterValue]:
     """Return the value of every parameter, given those that were set at start-up.
 
+    The preset comes first, then each of these over it.
+
     Parameters
     ----------
     overrides : mapping
@@ -48,7 +51,8 @@ def values_from(overrides: Mapping[str, object]) -> dict[str, ParameterValue]:
     Raises
     ------
     ParameterError
-        Where a name is misspelt, a type is wrong, or some but not all of ``balls.*`` are given.
+        Where a name is misspelt, a type is wrong, some but not all of ``balls.*`` are given, or
+        parameters contradict each other.
     """
     for name, ours in near_misses(overrides).items():
         if name.startswith(GROUPS):
@@ -58,7 +62,10 @@ def values_from(overrides: Mapping[str, object]) -> dict[str, ParameterValue]:
     if 0 < len(missing) < len(lists):
         raise ParameterError(f'{missing[0]} is missing; give all of {", ".join(lists)}, or none')
     given = {name: coerce(name, overrides[name]) for name in PARAMETERS if name in overrides}
-    return {**default_values(), **given}
+    try:
+        return preset_values(given)
+    except ValueError as error:
+        raise ParameterError(str(error)) from error
 
 
 def coerce(name: str, value: object) -> ParameterValue:
@@ -99,12 +106,13 @@ def coerce_all(values: Mapping[str, object]) -> dict[str, ParameterValue]:
 
 
 def _coerce_string(spec: ParameterSpec, value: object) -> str:
+    if spec.choices and value not in spec.choices:
+        close = difflib.get_close_matches(str(value).lower(), spec.choices, 1)
+        raise _wrong(spec.name, ' or '.join(spec.choices), value, *close)
     if not isinstance(value, str) or (value == '' and not spec.may_be_empty):
         raise _wrong(spec.name, 'a string', value)
     if spec.is_frame and value.startswith('/'):
         raise _wrong(spec.name, 'a name without a slash before it, as tf2 has them', value)
-    if spec.choices and value not in spec.choices:
-        raise _wrong(spec.name, ' or '.join(spec.choices), value)
     return value
 
 
@@ -126,15 +134,14 @@ def _coerce_number(spec: ParameterSpec, value: object) -> float:
 
 
 def _coerce_list(spec: ParameterSpec, value: object) -> list[str] | list[float]:
-    items: list[object] = []
-    if isinstance(value, Iterable) and not isinstance(value, str):
-        items = list(value)
+    is_list = isinstance(value, Iterable) and not isinstance(value, str)
+    items: list[object] = list(value) if is_list else []  # type: ignore[call-overload]
     if spec.holds_strings:
         strings = [item for item in items if isinstance(item, str)]
         if not items or len(strings) < len(items):
             raise _wrong(spec.name, "a list of strings, like ['C', '1']", value)
         return strings
-    if not items:
+    if not (items or (spec.may_be_empty and is_list)):
         raise _wrong(spec.name, 'a list of numbers', value)
     numbers = []
     for index, item in enumerate(items):
@@ -158,8 +165,9 @@ def _is_number(value: object) -> TypeGuard[int | float]:
     return abs(value) <= sys.float_info.max  # false for nan and for integers that no float can hold
 
 
-def _wrong(name: str, wanted: str, value: object) -> ParameterError:
-    return ParameterError(f'{name} must be {wanted}, not {_shown(value)}')
+def _wrong(name: str, wanted: str, value: object, *close: str) -> ParameterError:
+    meant = f'; did you mean {close[0]!r}?' if close else ''
+    return ParameterError(f'{name} must be {wanted}, not {_shown(value)}{meant}')
 
 
 def _shown(value: object) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import Enum
 from itertools import pairwise
 
@@ -9,7 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics import EventKind, Trajectory
-from pool_sim_ros.simulator.frame import COLLISION_COLUMNS, NO_COLLISIONS, Block, Frame
+from pool_sim_ros.simulator.frame import (
+    COLLISION_COLUMNS,
+    NO_COLLISIONS,
+    SPIN_COLUMNS,
+    VELOCITY_COLUMNS,
+    Block,
+    Frame,
+)
+from pool_sim_ros.simulator.layout import Layout
 from pool_sim_ros.simulator.sim_time import stamp_to_seconds, tick_to_stamp
 
 BLOCK = 64
@@ -17,6 +26,11 @@ BLOCK = 64
 
 BLOCK_BALLS = 4096
 """Most balls in a block, counted over all its ticks: it bounds how long a large table takes."""
+
+SHOWN_KINDS = (EventKind.BALL_BALL, EventKind.CUSHION, EventKind.POCKETED)
+"""The events that are collisions; that a ball rolls or stops is none."""
+
+KIND, BALL = COLLISION_COLUMNS.index('kind'), COLLISION_COLUMNS.index('a')
 
 
 class Motion(Enum):
@@ -40,18 +54,19 @@ class Playback:
 
     Parameters
     ----------
-    layout : ndarray of shape (n, 2)
-        Positions of the balls, m.
+    layout : Layout
+        How the balls lie at first.
     rate : int
         Ticks per second of sim time.
     """
 
-    def __init__(self, layout: NDArray[np.float64], rate: int) -> None:
+    def __init__(self, layout: Layout, rate: int) -> None:
         self.motion = Motion.AT_REST
         self.rate = rate
         self.next_tick = 0
-        self._block_length = min(max(BLOCK_BALLS // len(layout), 1), BLOCK)
+        self._block_length = min(max(BLOCK_BALLS // len(layout.positions), 1), BLOCK)
         self._trajectory: Trajectory | None = None
+        self._start = layout
         self._start_tick = 0
         self._collisions = NO_COLLISIONS
         self._first_seq = self._next_seq = 0
@@ -71,17 +86,31 @@ class Playback:
     @property
     def start_time(self) -> float:
         """Sim time at which the latest shot starts or started, s."""
-        return stamp_to_seconds(self.stamp_of(self._start_tick))
+        return self.time_of(self._start_tick)
+
+    @property
+    def layout(self) -> Layout:
+        """How the balls lie at rest, or lay before the shot that moves them."""
+        return self._layout
+
+    @property
+    def pocketed(self) -> tuple[int, ...]:
+        """The balls in pockets, in the order in which they fell, as the latest tick of a shot has
+        it, or as they lie at rest."""
+        return self._pocketed if self.motion is Motion.MOVING else self._layout.pocketed
 
     @property
     def positions(self) -> NDArray[np.float64]:
         """Where the balls rest, or rested before the shot that moves them, (n, 2), m."""
-        positions: NDArray[np.float64] = self._resting[0]
-        return positions
+        return self._layout.positions
 
     def stamp_of(self, tick: int) -> int:
         """Return the sim time of a tick, ns; it is never accumulated."""
         return tick_to_stamp(tick, self.rate)
+
+    def time_of(self, tick: int) -> float:
+        """Return the sim time of a tick, s."""
+        return stamp_to_seconds(self.stamp_of(tick))
 
     def strike(self) -> None:
         """Note that a shot is being computed; the balls must be at rest."""
@@ -89,12 +118,21 @@ class Playback:
             raise RuntimeError(f'strike while {self.motion.value}')
         self.motion = Motion.COMPUTING
 
-    def computed(self, trajectory: Trajectory) -> None:
-        """Take the shot that was being computed; the next tick starts it."""
+    def computed(self, trajectory: Trajectory, start: Layout | None = None) -> None:
+        """Take the shot that was being computed; the next tick starts it.
+
+        Parameters
+        ----------
+        trajectory : Trajectory
+        start : Layout, optional
+            How the balls lie when it starts; by default as they rest.
+        """
         if self.motion is not Motion.COMPUTING:
             raise RuntimeError(f'a shot was computed while {self.motion.value}')
         self.motion = Motion.READY
         self._trajectory = trajectory
+        self._start = self._layout if start is None else start
+        self._pocketed = self._start.pocketed
         self._start_tick = self.next_tick
         self._first_seq = self._next_seq
         self._collisions = self._collisions_of(trajectory)
@@ -106,10 +144,14 @@ class Playback:
             raise RuntimeError(f'abandon while {self.motion.value}')
         self.motion = Motion.AT_REST
 
-    def reset(self, layout: NDArray[np.float64]) -> None:
-        """Drop any shot; the next tick shows the balls at rest on this layout, (n, 2), m."""
+    def reset(self, layout: Layout) -> None:
+        """Drop any shot; the next tick shows the balls at rest on this layout."""
         self.motion = Motion.AT_REST
-        self._resting = np.repeat(np.array([layout], dtype=float), self._block_length, axis=0)
+        self._layout = layout
+        self._pocketed = layout.pocketed
+        self._resting = self._repeated(layout.positions)
+        turned = layout.orientations
+        self._turned = None if turned is None else self._repeated(turned)
         self._trajectory = None
         self._block = None
 
@@ -131,15 +173,17 @@ class Playback:
         started = self.motion is Motion.READY
         self.motion = Motion.MOVING
         self._next_seq += len(collisions)
+        self._pocketed = block.pocketed[index]
         finished = block.ends_shot and self.next_tick == block.end_tick
         if finished:
-            self.reset(block.positions[index])
+            turned = None if block.orientations is None else block.orientations[index]
+            self.reset(Layout(block.positions[index], turned, self._pocketed))
         return Frame(block, index, tick, collisions, started, finished)
 
     def _collisions_of(self, trajectory: Trajectory) -> NDArray[np.float64]:
         """Return all collisions of the shot that starts next, (k, 10)."""
         events = trajectory.events
-        contacts = events[events['kind'] != EventKind.STOP]
+        contacts = events[np.isin(events['kind'], SHOWN_KINDS)]
         # A reset drops those not shown yet, and the next shot uses their numbers: seq has no gap.
         seq = np.arange(self._next_seq, self._next_seq + len(contacts), dtype=float)
         rows = np.column_stack([seq, *(contacts[name] for name in COLLISION_COLUMNS[1:])])
@@ -150,15 +194,22 @@ class Playback:
         ticks = range(self.next_tick, self.next_tick + self._block_length)
         return np.array([self.stamp_of(tick) for tick in ticks], dtype=np.int64)
 
+    def _repeated(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.repeat(np.array([values], dtype=float), self._block_length, axis=0)
+
     def _resting_block(self) -> Block:
         stamps = self._next_stamps().tolist()
+        m, n, _ = self._resting.shape
+        columns = VELOCITY_COLUMNS if self._turned is None else SPIN_COLUMNS
         return Block(
             self.next_tick,
             self.next_tick + len(stamps),
             stamps,
             self._resting,
-            np.zeros_like(self._resting),
+            np.zeros((m, n, len(columns))),
             [NO_COLLISIONS] * len(stamps),
+            orientations=self._turned,
+            pocketed=[self._layout.pocketed] * len(stamps),
         )
 
     def _moving_block(self, shot: Trajectory) -> Block:
@@ -167,20 +218,38 @@ class Playback:
         moving = int(np.searchsorted(times, shot.duration))
         ends_shot = moving < len(times)
         positions, velocities = shot.positions(times[:moving]), shot.velocities(times[:moving])
+        start, orientations = self._start.orientations, None
+        if start is not None:
+            until = np.append(times[:moving], shot.duration) if ends_shot else times[:moving]
+            orientations = shot.orientations(until, start)
+            velocities = np.concatenate([velocities, shot.spins(times[:moving])], axis=2)
         if ends_shot:
             stamps = stamps[: moving + 1]
             positions = np.concatenate([positions, [shot.final_positions]])
-            velocities = np.concatenate([velocities, [shot.final_velocities]])
+            rest = shot.final_velocities if start is None else np.zeros(velocities.shape[1:])
+            velocities = np.concatenate([velocities, [rest]])
+        collisions = self._next_collisions(stamps, ends_shot)
         return Block(
             self.next_tick,
             self.next_tick + len(stamps),
             stamps.tolist(),
             positions,
             velocities,
-            self._next_collisions(stamps, ends_shot),
+            collisions,
             moving=True,
             ends_shot=ends_shot,
+            orientations=orientations,
+            pocketed=self._next_pocketed(collisions),
         )
+
+    def _next_pocketed(self, collisions: Sequence[NDArray[np.float64]]) -> list[tuple[int, ...]]:
+        """Return the balls in pockets at each of the next ticks, given the collisions of each."""
+        pocketed, each = self._pocketed, []
+        for rows in collisions:
+            caught = rows[rows[:, KIND] == EventKind.POCKETED, BALL]
+            pocketed = (*pocketed, *map(int, caught)) if len(caught) else pocketed
+            each.append(pocketed)
+        return each
 
     def _next_collisions(
         self, stamps: NDArray[np.int64], to_the_end: bool

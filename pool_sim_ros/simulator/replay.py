@@ -61,11 +61,12 @@ def _carry_out(simulation: Simulation, command: dict[str, Any]) -> None:
             simulation.reset()
             if command['positions'].shape[1] != 2:
                 raise ValueError('positions must be rows of two numbers')
-            refusal = simulation.place(command['positions'])
+            turned = command.get('orientations')
+            refusal = simulation.place(command['positions'], orientations=turned)
             if refusal is not None:
                 raise ValueError(refusal)
         case 'strike':
-            _play(simulation, Request(velocity=command['velocity']))
+            _play(simulation, Request(velocity=command['velocity'], spin=command.get('spin')))
         case 'shot':
             _play(simulation, Request(shot=command['shot']))
 

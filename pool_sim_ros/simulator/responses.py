@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from pool_sim_ros.me212 import inches
 from pool_sim_ros.physics import Trajectory
 from pool_sim_ros.simulator.job import Job
+from pool_sim_ros.simulator.layout import Layout
 from pool_sim_ros.simulator.shot_request import Code, Phase, Request, Response
 
 
@@ -20,6 +25,9 @@ def rejected(request: Request, code: Code, reason: str | None) -> Response:
         reason=reason,
         shot=request.shot,
         velocity=request.velocity,
+        spin=request.spin,
+        cue=request.cue,
+        place=request.place,
     )
 
 
@@ -57,6 +65,8 @@ def accepted(request: Request, job: Job, as_printed: bool | None) -> Response:
         velocity=job.velocity,
         integrator=job.integrator,
         as_printed=as_printed,
+        spin=job.spin,
+        cue=request.cue,
     )
 
 
@@ -75,17 +85,54 @@ def done(
     start_time : float
         Sim time at which the balls started, s.
     """
-    positions = trajectory.final_positions.tolist()
+    pocketed = None
+    if response.spin is not None:
+        numbers = zip(labels, trajectory.pocketed.tolist(), strict=True)
+        pocketed = {label: number for label, number in numbers if number >= 0}
     return replace(
         response,
         phase=Phase.DONE,
         t_start=start_time,
         t_end=start_time + trajectory.duration,
         events=len(trajectory.events),
-        final_positions=dict(zip(labels, positions, strict=True)),
-        final_positions_in={
-            label: [inches(x), inches(y)] for label, (x, y) in zip(labels, positions, strict=True)
-        },
+        pocketed=pocketed,
+        **_positions(labels, trajectory.final_positions),
+    )
+
+
+def placed(request: Request, labels: Sequence[str], layout: Layout, time: float) -> list[Response]:
+    """Return the responses to balls that were placed elsewhere: accepted, and done.
+
+    Parameters
+    ----------
+    request : Request
+    labels : sequence of n str
+        Of the balls, in order.
+    layout : Layout
+        How all balls lie then.
+    time : float
+        Sim time of the tick that shows it, s.
+    """
+    accepted = Response(id=request.id, phase=Phase.ACCEPTED, place=request.place)
+    return [
+        accepted,
+        replace(
+            accepted,
+            phase=Phase.DONE,
+            t_start=time,
+            t_end=time,
+            events=0,
+            **_positions(labels, layout.positions),
+        ),
+    ]
+
+
+def _positions(labels: Sequence[str], positions: NDArray[np.float64]) -> dict[str, Any]:
+    """Return the fields that say where the balls are, (n, 2) in m."""
+    places = list(zip(labels, positions.tolist(), strict=True))
+    return dict(
+        final_positions=dict(places),
+        final_positions_in={label: [inches(x), inches(y)] for label, (x, y) in places},
     )
 
 

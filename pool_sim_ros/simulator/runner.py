@@ -76,6 +76,7 @@ class Runner:
         self._steps = Steps(self._simulation, self._show_next_frame)
         self._stopping = threading.Event()
         self._shown_state: dict[str, object] = {}
+        self._shown_pocketed = 0
         now = time.monotonic()
         self._last_request = self._next_state = self._next_clock = self._next_health = now
         output.table(settings)
@@ -89,7 +90,8 @@ class Runner:
 
     def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Response:
         """Take and answer a twist of the cue ball, (3,) m/s and (3,) rad/s."""
-        return self.take(twist_request(linear, angular))
+        spins = self._simulation.settings.table.motion == 'ball'
+        return self.take(twist_request(linear, angular, spins))
 
     def take(self, request: Request) -> Response:
         """Take and answer a request."""
@@ -116,6 +118,7 @@ class Runner:
             refusal = self._simulation.place(positions, frame_id)
             if refusal is not None:
                 self._health.rejected(f'set_ball_poses: {refusal}')
+            self._show_state()
             return refusal
 
     def set_paused(self, paused: bool) -> None:
@@ -160,7 +163,7 @@ class Runner:
         self._last_request = time.monotonic()
         if response.phase is Phase.REJECTED:
             self._health.rejected(f'{response.code.value}: {response.reason}')
-        self._output.responses([response])
+        self._output.responses([response, *self._simulation.more_responses()])
         self._show_state()
         if job is not None:
             self._worker.submit(lambda: self._compute(job))
@@ -243,7 +246,7 @@ class Runner:
     def _show_next_frame(self) -> None:
         frame, responses = self._simulation.next_frame()
         self._output.frame(frame)
-        if frame.started or frame.finished:
+        if frame.started or frame.finished or len(frame.pocketed) != self._shown_pocketed:
             self._show_state()
             self._output.responses(responses)
 
@@ -272,10 +275,12 @@ class Runner:
             'moving': simulation.moving,
             'computing': simulation.computing,
             'real_time_factor': self._pacer.real_time_factor,
+            'pocketed': simulation.pocketed,
         }
         if state == self._shown_state and not always:
             return
         self._shown_state = state
+        self._shown_pocketed = len(simulation.pocketed)
         self._next_state = time.monotonic() + STATE_PERIOD
         sim_time = stamp_to_seconds(simulation.stamp)
         self._output.state({**state, 'tick': simulation.tick, 'sim_time': sim_time})

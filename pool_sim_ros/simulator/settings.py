@@ -6,15 +6,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pool_sim_ros.me212 import deviations
-from pool_sim_ros.physics import Ball, Integrator, Table
-from pool_sim_ros.simulator.parameter_table import BALL_LISTS, PARAMETERS, ParameterValue
-from pool_sim_ros.simulator.parameter_values import ParameterError
+import numpy as np
 
-_BALL_FIELDS = dict(
-    labels='label', masses='mass', radii='radius', positions='position', colors='color'
+from pool_sim_ros.me212 import deviations
+from pool_sim_ros.physics import Ball, Cushions, Integrator, Table
+from pool_sim_ros.simulator.parameter_table import (
+    BALL_LISTS,
+    BOUNDARY_LISTS,
+    ParameterValue,
+    parameters_of,
 )
-"""Field of `Ball` for each of the parameters ``balls.*``."""
+from pool_sim_ros.simulator.parameter_values import ParameterError
+from pool_sim_ros.simulator.presets import ball_values, boundary_values
 
 FRAME_LENGTH = 60
 """Characters of a frame that a message shows: anybody may have sent it."""
@@ -28,6 +31,7 @@ class Settings:
     """All parameters, checked: see `PARAMETERS` for what each means."""
 
     table: Table
+    preset: str
     integrator: Integrator
     report_integrator: Integrator
     time_slice: float
@@ -72,8 +76,18 @@ def build_settings(values: Mapping[str, Any]) -> Settings:
         for name, value in values.items()
         if name.startswith('table.')
     }
+    preset = table.pop('preset')
     try:
-        return Settings(table=Table(balls=_balls(values), **table), **own)
+        if table['motion'] == 'ball':
+            table |= _boundary(table)
+        for name in ('integrator', 'report_integrator'):
+            choices = parameters_of(table['motion'])[name].choices
+            if own[name] not in choices:
+                raise ParameterError(
+                    f'{name} must be {" or ".join(choices)}, not {own[name]!r}, on a table of '
+                    f'motion {table["motion"]}'
+                )
+        return Settings(table=Table(balls=_balls(values), **table), preset=preset, **own)
     except ParameterError:
         raise
     except ValueError as error:
@@ -83,16 +97,25 @@ def build_settings(values: Mapping[str, Any]) -> Settings:
 def values_of(settings: Settings) -> dict[str, ParameterValue]:
     """Return the value of every parameter: what `build_settings` was given."""
     table = settings.table
-    values: dict[str, ParameterValue] = {}
-    for name in PARAMETERS:
-        group, _, field = name.rpartition('.')
-        if group == 'balls':
-            rows = [getattr(ball, _BALL_FIELDS[field]) for ball in table.balls]
-            wide = BALL_LISTS[field] > 1
-            values[name] = [number for row in rows for number in row] if wide else rows
-        else:
+    values = {**ball_values(table.balls), **boundary_values(table), 'table.preset': settings.preset}
+    for name in parameters_of(table.motion):
+        if name not in values:
+            group, _, field = name.rpartition('.')
             values[name] = getattr(table if group == 'table' else settings, field)
-    return values
+    return {name: values[name] for name in parameters_of(table.motion)}
+
+
+def _boundary(table: dict[str, Any]) -> dict[str, Any]:
+    """Take the lists of the boundary out of the fields of a table; return what they make."""
+    rows = {}
+    for name, width in BOUNDARY_LISTS.items():
+        flat = table.pop(name)
+        if len(flat) % width:
+            raise ParameterError(f'table.{name} has {len(flat)} values; each row has {width}')
+        rows[name] = np.array(flat).reshape(-1, width)
+    segments, noses = rows['cushion_segments'], rows['cushion_noses']
+    cushions = Cushions(segments, noses) if len(segments) or len(noses) else None
+    return {'cushions': cushions, 'pockets': rows['pockets']}
 
 
 def _balls(values: Mapping[str, Any]) -> tuple[Ball, ...]:

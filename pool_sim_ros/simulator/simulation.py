@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.me212 import cue_velocity
-from pool_sim_ros.physics import ShotTooLong, Trajectory
+from pool_sim_ros.physics import Trajectory
 from pool_sim_ros.simulator import responses
 from pool_sim_ros.simulator.command_log import CommandLog
 from pool_sim_ros.simulator.frame import Block, Frame
-from pool_sim_ros.simulator.job import MOST_SLICES, Job, make_job
-from pool_sim_ros.simulator.next_layout import next_layout, why_refused
+from pool_sim_ros.simulator.job import Job, make_job
+from pool_sim_ros.simulator.layout import Layout, layout_at, start_layout
+from pool_sim_ros.simulator.next_layout import (
+    check_cue_ball,
+    next_layout,
+    why_refused,
+    with_placed,
+)
 from pool_sim_ros.simulator.playback import Motion, Playback
+from pool_sim_ros.simulator.refusals import RefusedError
 from pool_sim_ros.simulator.request_history import RequestHistory
 from pool_sim_ros.simulator.settings import Settings
+from pool_sim_ros.simulator.shot_in_hand import ShotInHand, why_not_played
 from pool_sim_ros.simulator.shot_request import (
     Code,
     Request,
@@ -26,19 +32,7 @@ from pool_sim_ros.simulator.shot_request import (
     parse_request,
     twist_request,
 )
-
-
-@dataclass(eq=False, slots=True)
-class _Shot:
-    """The shot in hand: from its acceptance until all balls rest, or until it is preempted."""
-
-    request_id: str
-    content: str
-    response: Response
-    job: Job
-    settings: Settings
-    trajectory: Trajectory | None = None
-
+from pool_sim_ros.simulator.strikes import strike_of
 
 Taken = tuple[Response, Job | None]
 
@@ -72,12 +66,13 @@ class Simulation:
     ) -> None:
         self.settings = settings
         self.paused = settings.start_paused
-        self._playback = Playback(settings.table.positions, settings.publish_rate)
+        self._playback = Playback(start_layout(settings.table), settings.publish_rate)
         self._history = history or RequestHistory()
         self._log = log
         self._layout_changed = False
-        self._placed: NDArray[np.float64] | None = None
-        self._shot: _Shot | None = None
+        self._placed: Layout | None = None
+        self._shot: ShotInHand | None = None
+        self._more: list[Response] = []
 
     @property
     def moving(self) -> bool:
@@ -93,6 +88,12 @@ class Simulation:
     def at_rest(self) -> bool:
         """Whether no shot is in hand."""
         return self._shot is None
+
+    @property
+    def pocketed(self) -> list[str]:
+        """Labels of the balls in pockets, in the order in which they fell."""
+        labels = self.settings.table.labels
+        return [labels[ball] for ball in self._playback.pocketed]
 
     @property
     def tick(self) -> int:
@@ -115,7 +116,8 @@ class Simulation:
 
     def strike(self, linear: Sequence[float], angular: Sequence[float]) -> Taken:
         """Take a twist of the cue ball, (3,) m/s and (3,) rad/s; returns as `take` does."""
-        return self.take(twist_request(linear, angular))
+        spins = self.settings.table.motion == 'ball'
+        return self.take(twist_request(linear, angular, spins))
 
     def take(self, request: Request) -> tuple[Response, Job | None]:
         """Take a request; without an id it gets one, unless it is unreadable.
@@ -125,7 +127,8 @@ class Simulation:
         response : Response
             To be published now.
         job : Job or None
-            To be computed, and its result given to `computed`.
+            To be computed, and its result given to `computed`; where there is none, there may be
+            `more_responses`.
         """
         if request.id is None:
             if request.code is Code.BAD_REQUEST:
@@ -140,37 +143,32 @@ class Simulation:
             known = self._find(request_id)
             if known is not None:
                 return responses.repeated(request, *known), None
-        job = None
-        if request.code is not Code.OK:
-            response = responses.rejected(request, request.code, request.reason)
-        else:
-            response, job = self._consider(request)
-        if job is None:
+        try:
+            if request.code is not Code.OK:
+                raise RefusedError(request.code, request.reason or '')
+            if request.place is not None:
+                return self._place_some(request, request.place), None
+            return self._accept(request_id, request)
+        except RefusedError as refused:
+            response = responses.rejected(request, refused.code, refused.reason)
             self._history.add(request_id, request.content, response)
-        else:
-            self._playback.strike()
-            self._shot = _Shot(request_id, request.content, response, job, self.settings)
-        return response, job
+            return response, None
+
+    def more_responses(self) -> list[Response]:
+        """Return what is to be published after the response that `take` has returned."""
+        more, self._more = self._more, []
+        return more
 
     def computed(self, job: Job, result: Trajectory | Exception) -> list[Response]:
         """Take the result of a job; nothing changes if the table was reset meanwhile."""
         shot = self._shot
         if shot is None or job is not shot.job or not self.computing:
             return []
-        if isinstance(result, Exception):
+        if isinstance(result, Exception) or not result.complete:
             self._playback.abandon()
-            reason = f'the shot could not be computed: {result}'
-            code = Code.TOO_LONG if isinstance(result, ShotTooLong) else Code.FAILED
-            return [self._preempt(shot, code, reason)]
-        if not result.complete:
-            self._playback.abandon()
-            limit = f'max_shot_duration, {job.until:g} s'
-            if job.until < shot.settings.max_shot_duration:
-                limit = f'{MOST_SLICES:g} slices of time_slice, {job.until:g} s'
-            reason = f'the balls would move for longer than {limit}'
-            return [self._preempt(shot, Code.TOO_LONG, reason)]
+            return [self._preempt(shot, *why_not_played(result, job, shot.settings))]
         shot.trajectory = result
-        self._playback.computed(result)
+        self._playback.computed(result, shot.start)
         return []
 
     def reset(self) -> list[Response]:
@@ -181,36 +179,38 @@ class Simulation:
             return []
         return [self._preempt(self._shot, Code.RESET, 'the table was reset', start_time)]
 
-    def place(self, positions: NDArray[np.float64], frame_id: str = '') -> str | None:
-        """Put all balls elsewhere.
+    def place(
+        self,
+        positions: NDArray[np.float64],
+        frame_id: str = '',
+        orientations: NDArray[np.float64] | None = None,
+    ) -> str | None:
+        """Put all balls elsewhere; return why this cannot be, or None where it was done.
 
         Parameters
         ----------
         positions : ndarray of shape (k, 2)
             In the order of the balls, m, in the frame `frame_id`; empty is the node's.
-
-        Returns why this cannot be, and nothing has changed, or None where it was done.
+        orientations : ndarray of shape (k, 4), optional
+            Where balls spin; by default they are not turned.
         """
         reason = why_refused(self.settings, positions, frame_id)
-        if reason is None and not self.at_rest:
-            reason = f'{self._occupation}; wait for done or reset'
-        if reason is None:
-            self._lay_out(np.array(positions))
-        return reason
+        if reason is not None:
+            return reason
+        try:
+            self._check_at_rest()
+        except RefusedError as refused:
+            return refused.reason
+        before = self._playback.layout.pocketed
+        self._lay_out(layout_at(self.settings.table, np.array(positions), orientations, before))
+        return None
 
     def look_ahead(self) -> Block:
         """Return what the next ticks show unless something comes between; nothing changes."""
         return self._playback.look_ahead()
 
     def next_frame(self) -> tuple[Frame, list[Response]]:
-        """Go on by one tick.
-
-        Returns
-        -------
-        frame : Frame
-        responses : list of Response
-            To be published after the frame.
-        """
+        """Go on by one tick; return its frame, and the responses to be published after it."""
         frame, shot = self._playback.next_frame(), self._shot
         if self._log is not None:
             self._record(self._log, frame)
@@ -224,13 +224,25 @@ class Simulation:
             self._log.close(self.next_tick)
             self._log = None
 
-    @property
-    def _occupation(self) -> str:
-        return 'a shot is being computed' if self.computing else 'the balls are moving'
+    def _lay_out(self, layout: Layout | None) -> None:
+        self._layout_changed, self._placed = True, layout
+        self._playback.reset(start_layout(self.settings.table) if layout is None else layout)
 
-    def _lay_out(self, positions: NDArray[np.float64] | None) -> None:
-        self._layout_changed, self._placed = True, positions
-        self._playback.reset(self.settings.table.positions if positions is None else positions)
+    def _place_some(self, request: Request, places: dict[str, tuple[float, float]]) -> Response:
+        """Put single balls elsewhere."""
+        self._check_at_rest()
+        table, time = self.settings.table, self._playback.time_of(self.next_tick)
+        layout = with_placed(table, self._playback.layout, places)
+        self._lay_out(layout)
+        accepted, done = responses.placed(request, table.labels, layout, time)
+        self._more.append(done)
+        self._history.add(str(request.id), request.content, done)
+        return accepted
+
+    def _check_at_rest(self) -> None:
+        if not self.at_rest:
+            doing = 'a shot is being computed' if self.computing else 'the balls are moving'
+            raise RefusedError(Code.BUSY, f'{doing}; wait for done or reset')
 
     def _record(self, log: CommandLog, frame: Frame) -> None:
         # Only once the frame is there: it shows the last of all resets and placements in a tick.
@@ -239,7 +251,8 @@ class Simulation:
         self._layout_changed, self._placed = False, None
         if frame.started and self._shot is not None:
             shot = self._shot
-            log.strike(frame.tick, shot.settings, shot.response.shot, shot.job.velocity)
+            job = shot.job
+            log.strike(frame.tick, shot.settings, shot.response.shot, job.velocity, job.spin)
 
     def _find(self, request_id: str) -> tuple[str, Response] | None:
         """Return the content and the latest response of a request that is known, or None."""
@@ -248,44 +261,38 @@ class Simulation:
             return shot.content, shot.response
         return self._history.find(request_id)
 
-    def _consider(self, request: Request) -> tuple[Response, Job | None]:
-        """Accept a readable request, or reject it."""
-        settings, velocity, as_printed = self.settings, request.velocity, None
-        if request.shot is not None:
-            try:
-                velocity = cue_velocity(request.shot, settings.table)
-            except ValueError as error:
-                return responses.rejected(request, Code.UNKNOWN_SHOT, str(error)), None
-            as_printed = not settings.deviations
-        assert velocity is not None, 'a readable request has a shot or a velocity'
-        speed = math.hypot(*velocity)
-        if speed > settings.max_cue_speed:
-            limit = f'max_cue_speed, {settings.max_cue_speed:g} m/s'
-            reason = f'the speed {speed:g} m/s is above {limit}'
-            return responses.rejected(request, Code.TOO_FAST, reason), None
-        if not self.at_rest:
-            reason = f'{self._occupation}; wait for done or reset'
-            return responses.rejected(request, Code.BUSY, reason), None
-        job = make_job(settings, request.shot, velocity, self._playback.positions)
-        return responses.accepted(request, job, as_printed), job
+    def _accept(self, request_id: str, request: Request) -> tuple[Response, Job]:
+        """Accept a strike; raise RefusedError where it cannot be."""
+        settings = self.settings
+        strike = strike_of(request, settings)
+        self._check_at_rest()
+        start = self._playback.layout if request.shot is None else start_layout(settings.table)
+        check_cue_ball(settings.table, start)
+        job = make_job(settings, request.shot, strike.velocity, start.positions, strike.spin)
+        as_printed = None if request.shot is None else not settings.deviations
+        response = responses.accepted(request, job, as_printed)
+        self._playback.strike()
+        self._shot = ShotInHand(request_id, request.content, response, job, settings, start)
+        return response, job
 
-    def _done(self, shot: _Shot) -> Response:
+    def _done(self, shot: ShotInHand) -> Response:
         trajectory = shot.trajectory
         assert trajectory is not None, 'a shot that is played was computed'
         table, start_time = self.settings.table, self._playback.start_time
         response = responses.done(shot.response, trajectory, table.labels, start_time)
-        layout, reason = next_layout(table, self._playback.positions, shot.job.positions)
+        lies = self._playback.layout
+        positions, reason = next_layout(table, lies.positions, shot.job.positions)
         if reason is not None:
-            self._lay_out(layout)
+            self._lay_out(layout_at(table, positions, lies.orientations, lies.pocketed))
         return self._end(shot, replace(response, reason=reason))
 
     def _preempt(
-        self, shot: _Shot, code: Code, reason: str, start_time: float | None = None
+        self, shot: ShotInHand, code: Code, reason: str, start_time: float | None = None
     ) -> Response:
         shot.job.cancel()
         return self._end(shot, responses.preempted(shot.response, code, reason, start_time))
 
-    def _end(self, shot: _Shot, response: Response) -> Response:
+    def _end(self, shot: ShotInHand, response: Response) -> Response:
         self._history.add(shot.request_id, shot.content, response)
         self._shot = None
         return response

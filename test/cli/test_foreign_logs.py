@@ -6,7 +6,8 @@ import os
 import pytest
 from bounded_process import assert_one_line, run_bounded
 
-from pool_sim_ros.simulator.command_log import FORMAT, MAX_LINE
+from pool_sim_ros.simulator.command_log import FORMAT
+from pool_sim_ros.simulator.log_reader import MAX_LINE
 from pool_sim_ros.simulator.parameter_table import default_values
 
 VALUES = default_values()

@@ -7,7 +7,7 @@ from rclpy.qos import QoSProfile
 from ros_harness import Observer
 
 from pool_sim_ros.ros import interface
-from pool_sim_ros.simulator.command_log import read_log
+from pool_sim_ros.simulator.log_reader import read_log
 from pool_sim_ros.simulator.replay import replay_frames
 
 

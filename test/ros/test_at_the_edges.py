@@ -14,7 +14,7 @@ from ros_harness import Ros
 from survival import Listener, resident
 
 from pool_sim_ros.ros import interface
-from pool_sim_ros.simulator import PARAMETERS, Change
+from pool_sim_ros.simulator import PARAMETERS, Change, parameters_of
 
 SET = interface.Service('set_parameters', SetParameters, 'rclpy has it')
 QUICK = {'report_integrator': 'event', 'real_time_factor': 0.0}
@@ -31,7 +31,7 @@ ENDLESS = {
 
 def edges():
     """Yield (name, value, the next number beyond) for each end of each range that may change."""
-    for name, spec in PARAMETERS.items():
+    for name, spec in parameters_of('disc').items():
         if spec.change is Change.NEVER or not isinstance(spec.default, int | float):
             continue
         if isinstance(spec.default, int):
@@ -65,7 +65,9 @@ class Table:
         return self.observer.call(SET, parameters=parameters).results
 
     def put_back(self):
-        values = {n: s.default for n, s in PARAMETERS.items() if s.change is not Change.NEVER}
+        values = {
+            n: s.default for n, s in parameters_of('disc').items() if s.change is not Change.NEVER
+        }
         assert all(result.successful for result in self.set(**{**values, **QUICK}))
         self.observer.call(interface.SET_PAUSED, data=False)
         self.observer.call(interface.RESET)
@@ -80,7 +82,7 @@ class Table:
 
 def test_every_number_that_may_change_has_its_edges_tried():
     names = [name for name, _, _ in EDGES]
-    numbers = {n for n, s in PARAMETERS.items() if type(s.default) in (int, float)}
+    numbers = {n for n, s in parameters_of('disc').items() if type(s.default) in (int, float)}
     assert set(names) == {n for n in numbers if PARAMETERS[n].change is not Change.NEVER}
     assert len(names) >= 2 * len(set(names))
 
@@ -124,7 +126,7 @@ def test_a_shot_that_nothing_slows_is_given_up_soon_and_in_little_memory(table, 
 
 
 def test_all_corners_of_the_coefficients_are_answered(table):
-    names = [name for name in PARAMETERS if name.startswith(('table.mu', 'table.e_'))]
+    names = [name for name in parameters_of('disc') if name.startswith(('table.mu', 'table.e_'))]
     before = resident(table.process)
     try:
         for law, ends in itertools.product(

@@ -19,7 +19,7 @@ from std_msgs.msg import String
 from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
 
 from pool_sim_ros.ros import interface
-from pool_sim_ros.simulator import PARAMETERS
+from pool_sim_ros.simulator import PARAMETERS, parameters_of
 
 
 @pytest.fixture(scope='module')
@@ -134,7 +134,7 @@ def test_any_message_is_answered_and_ends_nothing(victim, messages):
     is_served(observer)
 
 
-@pytest.mark.parametrize('name', sorted(PARAMETERS))
+@pytest.mark.parametrize('name', sorted(parameters_of('disc')))
 @pytest.mark.parametrize(
     'value',
     [float('nan'), float('inf'), -1.0, 0, 2**63 - 1, 'x' * 10_000, '', [], [1.5], True],

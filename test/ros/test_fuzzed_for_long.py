@@ -17,7 +17,7 @@ from survival import FAST, Listener, is_served, plays_as_printed, resident
 
 from pool_sim_ros.physics import report_table
 from pool_sim_ros.ros import interface
-from pool_sim_ros.simulator import PARAMETERS, Change
+from pool_sim_ros.simulator import Change, parameters_of
 
 SHORT = 10.0  # s
 CHECK_PERIOD = 2.0  # s
@@ -27,7 +27,9 @@ MOST_GROWTH = 500 * 2**20
 
 def put_back(observer):
     """Give every parameter that may change its value at the start."""
-    values = {name: s.default for name, s in PARAMETERS.items() if s.change is not Change.NEVER}
+    values = {
+        name: s.default for name, s in parameters_of('disc').items() if s.change is not Change.NEVER
+    }
     values |= FAST
     parameters = [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
     service = interface.Service('set_parameters', SERVICES['set_parameters'], '')

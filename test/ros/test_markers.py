@@ -9,6 +9,7 @@ from visualization_msgs.msg import Marker
 from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros.markers import Markers
 from pool_sim_ros.simulator.frame import COLLISION_COLUMNS
+from pool_sim_ros.simulator.layout import start_layout
 from pool_sim_ros.simulator.playback import Playback
 
 TABLE = report_table()
@@ -109,7 +110,7 @@ def test_balls_that_are_put_elsewhere_leave_no_trail():
 
 def test_a_shot_moves_only_what_rolls_flashes_at_contacts_and_leaves_exact_trails():
     shot = simulate(TABLE, (-4.0, 0.3))
-    playback = Playback(TABLE.positions, 60)
+    playback = Playback(start_layout(TABLE), 60)
     playback.strike()
     playback.computed(shot)
     markers = Markers(TABLE, 'table')

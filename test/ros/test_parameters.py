@@ -6,12 +6,12 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from pool_sim_ros.ros.parameters import declare_parameters, describe, on_change
-from pool_sim_ros.simulator import PARAMETERS, Change, ParameterError
+from pool_sim_ros.simulator import PARAMETERS, Change, ParameterError, parameters_of
 
 
 def test_every_parameter_is_declared_with_a_description_and_a_range(ros):
     node = ros.sim_node()
-    for name, spec in PARAMETERS.items():
+    for name, spec in parameters_of('disc').items():
         descriptor = node.describe_parameter(name)
         assert spec.doc in descriptor.description
         assert descriptor.read_only == (spec.change is Change.NEVER)

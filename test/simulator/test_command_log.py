@@ -8,8 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pool_sim_ros.simulator import command_log
-from pool_sim_ros.simulator.command_log import MAX_LINE, MAX_TICK, CommandLog, LogError, read_log
+from pool_sim_ros.simulator import command_log, log_reader
+from pool_sim_ros.simulator.command_log import MAX_TICK, CommandLog, LogError
+from pool_sim_ros.simulator.layout import Layout
+from pool_sim_ros.simulator.log_reader import MAX_LINE, read_log
 from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.settings import build_settings, values_of
 
@@ -22,7 +24,7 @@ def test_what_is_written_is_read_back_bit_for_bit(tmp_path):
     velocity = (0.1 + 0.2, -1e-300)
     changed = build_settings({**default_values(), 'table.e_cue_ball': 0.1 + 0.2})
     log = CommandLog(str(path), SETTINGS)
-    log.layout(2, positions)
+    log.layout(2, Layout(positions))
     log.strike(2, SETTINGS, None, velocity)
     log.layout(5, None)
     log.strike(7, changed, 3, (-1.0, 0.5))
@@ -104,6 +106,7 @@ def test_a_log_ends_in_time_to_be_read(tmp_path, monkeypatch):
 
 def test_a_log_of_too_many_lines_ends_and_is_not_read(tmp_path, monkeypatch):
     monkeypatch.setattr(command_log, 'MAX_LINES', 5)
+    monkeypatch.setattr(log_reader, 'MAX_LINES', 5)
     words, path = [], tmp_path / 'x.log'
     log = CommandLog(str(path), SETTINGS, words.append)
     for tick in range(9):
@@ -163,7 +166,7 @@ def test_a_full_disk_ends_the_log_with_words_and_not_the_session(tmp_path, monke
 
 
 VALUES = values_of(SETTINGS)
-HEADER = {'format': 'pool_sim_ros command log', 'version': 1, 'parameters': VALUES}
+HEADER = {'format': 'pool_sim_ros command log', 'version': 2, 'parameters': VALUES}
 
 
 @pytest.mark.parametrize(
@@ -172,7 +175,8 @@ HEADER = {'format': 'pool_sim_ros command log', 'version': 1, 'parameters': VALU
         ([], ['line 1']),
         (['hello'], ['line 1', 'JSON']),
         ([{'format': 'other'}], ['line 1', 'command log']),
-        ([HEADER | {'version': 2}], ['line 1', 'version']),
+        ([HEADER | {'version': 3}], ['line 1', 'version']),
+        ([HEADER | {'version': 1}], ['line 1', 'version 1']),
         ([HEADER | {'parameters': {}}], ['line 1', 'parameters']),
         ([HEADER, '[]'], ['line 2', 'object']),
         ([HEADER, {'tick': 1, 'command': 'jump'}], ['line 2', 'command']),

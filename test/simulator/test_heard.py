@@ -44,8 +44,8 @@ def test_what_the_node_sends_is_taken_as_it_is(response):
 
 
 def test_keys_of_later_versions_are_kept_and_what_need_not_be_there_may_be_missing():
-    fields = response_from_json('{"phase": "rejected", "code": "NEW", "reason": "", "spin": [1]}')
-    assert fields['spin'] == [1] and fields['id'] is fields['shot'] is fields['t_end'] is None
+    fields = response_from_json('{"phase": "rejected", "code": "NEW", "reason": "", "wind": [1]}')
+    assert fields['wind'] == [1] and fields['id'] is fields['shot'] is fields['t_end'] is None
     state = state_from_json('{"paused": true, "moving": false, "computing": false, "tick": 0}')
     assert state['paused'] is True and 'sim_time' not in state
     assert state_from_json(json.dumps(STATE)) == STATE

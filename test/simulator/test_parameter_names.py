@@ -39,6 +39,10 @@ MISSPELT = {
     'ball.labels': 'balls.labels',
     'e_cue_ball': 'table.e_cue_ball',
     'ball_friction': 'table.ball_friction',
+    'preset': 'table.preset',
+    'table.presets': 'table.preset',
+    'table.pocket': 'table.pockets',
+    'table.mu_slid': 'table.mu_slide',
 }
 
 FOREIGN = [

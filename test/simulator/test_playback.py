@@ -6,6 +6,7 @@ from fakes import Glide
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pool_sim_ros.simulator.layout import Layout
 from pool_sim_ros.simulator.playback import BLOCK, BLOCK_BALLS, Motion, Playback
 
 LAYOUT = np.array([[0.5, 0.5], [1.0, 0.5]])
@@ -24,11 +25,11 @@ def play(playback, trajectory):
 @given(st.integers(1, 1000), st.integers(0, 10**9))
 def test_stamp_is_the_exact_time_rounded_down(rate, tick):
     exact = Fraction(tick, rate) * 10**9
-    assert 0 <= exact - Playback(LAYOUT, rate).stamp_of(tick) < 1
+    assert 0 <= exact - Playback(Layout(LAYOUT), rate).stamp_of(tick) < 1
 
 
 def test_frames_at_rest_show_the_layout_tick_by_tick():
-    playback = Playback(LAYOUT, 60)
+    playback = Playback(Layout(LAYOUT), 60)
     frames = [playback.next_frame() for _ in range(3)]
     assert [f.tick for f in frames] == [0, 1, 2]
     assert [f.stamp for f in frames] == [0, 16_666_666, 33_333_333]
@@ -41,7 +42,7 @@ def test_frames_at_rest_show_the_layout_tick_by_tick():
 
 
 def test_motion_starts_at_the_tick_after_the_result_and_is_looked_up_from_there():
-    playback = Playback(LAYOUT, 100)
+    playback = Playback(Layout(LAYOUT), 100)
     playback.next_frame()
     playback.strike()
     waiting = [playback.next_frame() for _ in range(4)]
@@ -58,7 +59,7 @@ def test_motion_starts_at_the_tick_after_the_result_and_is_looked_up_from_there(
 
 
 def test_the_first_frame_at_rest_finishes_the_shot_on_its_final_positions():
-    playback = Playback(LAYOUT, 100)
+    playback = Playback(Layout(LAYOUT), 100)
     shot = Glide(LAYOUT, (1.0, 0.0), 0.035)
     frames = play(playback, shot)
     assert len(frames) == 5  # t = 0, 0.01, 0.02, 0.03 moving, 0.04 at rest
@@ -72,7 +73,7 @@ def test_the_first_frame_at_rest_finishes_the_shot_on_its_final_positions():
 
 @pytest.mark.parametrize('ticks', [BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK])
 def test_a_shot_longer_than_what_is_looked_up_at_once(ticks):
-    playback = Playback(LAYOUT, 100)
+    playback = Playback(Layout(LAYOUT), 100)
     playback.next_frame()
     shot = Glide(LAYOUT, (1.0, 0.0), ticks / 100 - 0.005)
     for _ in range(2):
@@ -83,7 +84,7 @@ def test_a_shot_longer_than_what_is_looked_up_at_once(ticks):
 
 
 def test_a_block_shows_what_the_next_frames_do_unless_the_layout_changes():
-    playback = Playback(LAYOUT, 100)
+    playback = Playback(Layout(LAYOUT), 100)
     playback.strike()
     playback.computed(Glide(LAYOUT, (1.0, 0.0), 0.035, [(0.015, 0)]))
     block = playback.look_ahead()
@@ -99,12 +100,12 @@ def test_a_block_shows_what_the_next_frames_do_unless_the_layout_changes():
 
 
 def test_a_shot_that_ends_on_a_tick_finishes_there():
-    frames = play(Playback(LAYOUT, 100), Glide(LAYOUT, (1.0, 0.0), 0.02))
+    frames = play(Playback(Layout(LAYOUT), 100), Glide(LAYOUT, (1.0, 0.0), 0.02))
     assert len(frames) == 3
 
 
 def test_a_shot_of_no_length_starts_and_finishes_in_one_frame():
-    frames = play(Playback(LAYOUT, 60), Glide(LAYOUT, (0.0, 0.0), 0.0))
+    frames = play(Playback(Layout(LAYOUT), 60), Glide(LAYOUT, (0.0, 0.0), 0.0))
     assert len(frames) == 1 and frames[0].started
 
 
@@ -115,7 +116,7 @@ def test_a_shot_of_no_length_starts_and_finishes_in_one_frame():
 )
 def test_each_contact_comes_once_in_the_first_frame_at_or_after_it(rate, first_tick, events):
     events.sort()
-    playback = Playback(LAYOUT, rate)
+    playback = Playback(Layout(LAYOUT), rate)
     playback.next_tick = first_tick
     frames = play(playback, Glide(LAYOUT, (0.1, 0.0), 1.0, events))
     rows = np.concatenate([frame.collisions for frame in frames])
@@ -131,12 +132,12 @@ def test_each_contact_comes_once_in_the_first_frame_at_or_after_it(rate, first_t
 
 
 def test_seq_goes_on_without_a_gap_after_a_reset_in_the_middle():
-    playback = Playback(LAYOUT, 100)
+    playback = Playback(Layout(LAYOUT), 100)
     events = [(0.005, 0), (0.015, 1), (0.5, 0)]
     playback.strike()
     playback.computed(Glide(LAYOUT, (0.1, 0.0), 1.0, events))
     seen = [playback.next_frame() for _ in range(3)]
-    playback.reset(LAYOUT)
+    playback.reset(Layout(LAYOUT))
     after = playback.next_frame()
     assert np.array_equal(after.positions, LAYOUT) and len(after.collisions) == 0
     frames = [*seen, *play(playback, Glide(LAYOUT, (0.1, 0.0), 1.0, events))]
@@ -146,7 +147,7 @@ def test_seq_goes_on_without_a_gap_after_a_reset_in_the_middle():
 
 
 def test_an_abandoned_shot_leaves_the_balls_where_they_are():
-    playback = Playback(LAYOUT, 60)
+    playback = Playback(Layout(LAYOUT), 60)
     playback.strike()
     playback.abandon()
     assert np.array_equal(playback.next_frame().positions, LAYOUT)
@@ -155,7 +156,7 @@ def test_an_abandoned_shot_leaves_the_balls_where_they_are():
 
 
 def test_calls_out_of_turn_are_errors():
-    playback = Playback(LAYOUT, 60)
+    playback = Playback(Layout(LAYOUT), 60)
     with pytest.raises(RuntimeError):
         playback.computed(Glide(LAYOUT, (1.0, 0.0), 1.0))
     with pytest.raises(RuntimeError):
@@ -166,10 +167,10 @@ def test_calls_out_of_turn_are_errors():
 
 
 def test_frames_do_not_change_afterwards():
-    playback = Playback(LAYOUT, 100)
+    playback = Playback(Layout(LAYOUT), 100)
     frames = play(playback, Glide(LAYOUT, (1.0, 0.0), 0.1, [(0.01, 0), (0.03, 0)]))
     copies = [(f.positions.copy(), f.velocities.copy(), f.collisions.copy()) for f in frames]
-    playback.reset(LAYOUT)
+    playback.reset(Layout(LAYOUT))
     play(playback, Glide(LAYOUT, (-1.0, 0.0), 0.1, [(0.02, 1)]))
     for frame, copy in zip(frames, copies, strict=True):
         for now, then in zip(
@@ -197,7 +198,7 @@ def state(playback):
     ),
 )
 def test_looking_ahead_changes_nothing(rate, commands):
-    looking, plain = Playback(LAYOUT, rate), Playback(LAYOUT, rate)
+    looking, plain = Playback(Layout(LAYOUT), rate), Playback(Layout(LAYOUT), rate)
     for command in commands:
         before = state(looking)
         block = looking.look_ahead()
@@ -207,7 +208,7 @@ def test_looking_ahead_changes_nothing(rate, commands):
         for playback in (looking, plain):
             match command, playback.motion:
                 case 'reset', _:
-                    playback.reset(LAYOUT + 0.01)
+                    playback.reset(Layout(LAYOUT + 0.01))
                 case 'strike', Motion.AT_REST:
                     playback.strike()
                 case 'abandon', Motion.COMPUTING:
@@ -228,7 +229,7 @@ def test_looking_ahead_changes_nothing(rate, commands):
 @pytest.mark.parametrize('balls', [1, BLOCK_BALLS // BLOCK + 1, BLOCK_BALLS + 1])
 def test_tables_of_any_number_of_balls(balls):
     layout = np.arange(2.0 * balls).reshape(-1, 2)
-    frames = play(Playback(layout, 100), Glide(layout, (1.0, 0.0), 0.035))
+    frames = play(Playback(Layout(layout), 100), Glide(layout, (1.0, 0.0), 0.035))
     assert [frame.positions[-1, 0] - layout[-1, 0] for frame in frames] == pytest.approx(
         [0.0, 0.01, 0.02, 0.03, 0.035]
     )

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pool_sim_ros.simulator.command_log import read_log
 from pool_sim_ros.simulator.frame import COLLISION_COLUMNS
+from pool_sim_ros.simulator.log_reader import read_log
 from pool_sim_ros.simulator.replay import replay_frames
 
 DATA = Path(__file__).with_name('data')

@@ -8,7 +8,8 @@ from fakes import Recorder
 from waiting import PATIENCE, wait_until
 
 from pool_sim_ros.ros.digest import digests
-from pool_sim_ros.simulator.command_log import CommandLog, LogError, read_log
+from pool_sim_ros.simulator.command_log import CommandLog, LogError
+from pool_sim_ros.simulator.log_reader import read_log
 from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.replay import replay_frames
 from pool_sim_ros.simulator.runner import Runner

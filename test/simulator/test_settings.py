@@ -4,7 +4,7 @@ from dataclasses import replace
 import pytest
 
 from pool_sim_ros.physics import report_table
-from pool_sim_ros.simulator.parameter_table import PARAMETERS, Change, default_values
+from pool_sim_ros.simulator.parameter_table import PARAMETERS, Change, default_values, parameters_of
 from pool_sim_ros.simulator.parameter_values import ParameterError, values_from
 from pool_sim_ros.simulator.settings import build_settings, values_of
 from pool_sim_ros.simulator.shot_request import Phase
@@ -93,7 +93,7 @@ def test_a_message_is_short_however_long_the_labels_are():
 
 def edges_at_start():
     """Yield (name, value) for both ends of each range of what is fixed at start-up."""
-    for name, spec in PARAMETERS.items():
+    for name, spec in parameters_of('disc').items():
         if spec.change is Change.NEVER and type(spec.default) in (int, float):
             for edge in (spec.least, spec.most):
                 yield name, type(spec.default)(edge)

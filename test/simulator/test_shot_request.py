@@ -156,5 +156,9 @@ def test_response_is_json_with_every_key():
         'final_positions',
         'final_positions_in',
         'as_printed',
+        'spin',
+        'cue',
+        'place',
+        'pocketed',
     ]
     assert (response['phase'], response['code'], response['t_end']) == ('rejected', 'BUSY', None)

@@ -16,7 +16,7 @@ from pool_sim_ros.physics import (
     simulate,
 )
 from pool_sim_ros.simulator import job as job_module
-from pool_sim_ros.simulator import simulation as simulation_module
+from pool_sim_ros.simulator import shot_in_hand
 from pool_sim_ros.simulator.parameter_table import default_values
 from pool_sim_ros.simulator.settings import build_settings
 from pool_sim_ros.simulator.shot_request import Code, Phase
@@ -293,7 +293,7 @@ def test_the_computing_of_a_shot_that_is_preempted_is_cancelled():
 
 def test_a_shot_of_too_many_slices_is_preempted_with_that_reason(monkeypatch):
     monkeypatch.setattr(job_module, 'MOST_SLICES', 1000)
-    monkeypatch.setattr(simulation_module, 'MOST_SLICES', 1000)
+    monkeypatch.setattr(shot_in_hand, 'MOST_SLICES', 1000)
     simulation = Simulation(build_settings({**default_values(), 'time_slice': 1e-4}))
     _, job = simulation.request('1')
     [response] = compute(simulation, job)

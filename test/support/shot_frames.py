@@ -1,12 +1,13 @@
 """The frames of one shot, without threads and without waiting."""
 
 from pool_sim_ros.physics import simulate
+from pool_sim_ros.simulator.layout import start_layout
 from pool_sim_ros.simulator.playback import Playback
 
 
 def shot_frames(table, velocity, rate=60):
     """Return the frames from the strike until all balls rest, at `rate` a second."""
-    playback = Playback(table.positions, rate)
+    playback = Playback(start_layout(table), rate)
     playback.strike()
     playback.computed(simulate(table, velocity))
     frames = [playback.next_frame()]
