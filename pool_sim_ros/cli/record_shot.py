@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pool_sim_ros.cli.shot_arguments import ShotParser, check_shot
+from pool_sim_ros.cli.shot_arguments import ShotParser, check_shot, what_to_play
 from pool_sim_ros.console import CommandError, ProgressLine, path, require
 from pool_sim_ros.ros import ros_command
 
@@ -75,8 +75,7 @@ def _record(context: Context, options: argparse.Namespace) -> None:
         try:
             recorder.wait_for_topics(options.timeout)
             response = client.play(
-                options.shot,
-                options.velocity,
+                **what_to_play(options),
                 timeout=options.timeout,
                 on_progress=line.show if line.wanted else None,
             )

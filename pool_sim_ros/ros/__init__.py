@@ -13,7 +13,7 @@ from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from pool_sim_ros.ros import interface, messages
-    from pool_sim_ros.ros.client import ShotClient, SimulatorError
+    from pool_sim_ros.ros.client import ShotClient
     from pool_sim_ros.ros.command import ros_command
     from pool_sim_ros.ros.digest import digests
     from pool_sim_ros.ros.environment import check_environment
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.ros.publishers import Publishers
     from pool_sim_ros.ros.recorder import Recorder
     from pool_sim_ros.ros.sim_node import SimNode
+    from pool_sim_ros.ros.simulator_client import SimulatorError
     from pool_sim_ros.ros.simulator_link import SimulatorLink
 else:
     __getattr__ = lazy_exports(
@@ -35,7 +36,7 @@ else:
             'Recorder': 'recorder',
             'ShotClient': 'client',
             'SimNode': 'sim_node',
-            'SimulatorError': 'client',
+            'SimulatorError': 'simulator_client',
             'SimulatorLink': 'simulator_link',
             'check_environment': 'environment',
             'digests': 'digest',

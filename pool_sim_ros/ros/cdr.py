@@ -32,6 +32,8 @@ SHAPES_KEPT = 64
 class PosesWriter:
     """Writes `~/ball_poses`: the balls' centres, each as high as its radius.
 
+    A ball in a pocket is as far below the cloth.
+
     Parameters
     ----------
     frame_id : str
@@ -41,6 +43,7 @@ class PosesWriter:
 
     def __init__(self, frame_id: str, radii: Sequence[float]) -> None:
         self._shape = len(radii), len(POSE)
+        self._radii = np.array(radii, dtype=float)
         poses = np.tile(POSE, (len(radii), 1))
         poses[:, 2] = radii
         message = bytearray(LITTLE_ENDIAN + bytes(STAMP))
@@ -48,11 +51,35 @@ class PosesWriter:
         _add_doubles(message, len(poses), poses)
         self._message = bytes(message)
 
-    def write(self, stamps: Sequence[int], positions: np.ndarray) -> list[bytes]:
-        """Return the messages for m sim times in ns and (m, n, 2) positions in m."""
+    def write(
+        self,
+        stamps: Sequence[int],
+        positions: np.ndarray,
+        orientations: np.ndarray | None = None,
+        pocketed: Sequence[Sequence[int]] = (),
+    ) -> list[bytes]:
+        """Return the messages of some ticks.
+
+        Parameters
+        ----------
+        stamps : sequence of m ints
+            Sim times, ns.
+        positions : ndarray of shape (m, n, 2)
+            m.
+        orientations : ndarray of shape (m, n, 4), optional
+            Quaternions x, y, z, w; by default no ball is turned.
+        pocketed : sequence of m sequences of int, optional
+            The balls in pockets at each tick.
+        """
         copies = _copies(self._message, len(stamps))
         _put_stamps(copies, stamps)
-        _doubles(copies, self._shape)[:, :, :2] = positions
+        poses = _doubles(copies, self._shape)
+        poses[:, :, :2] = positions
+        if orientations is not None:
+            poses[:, :, 3:] = orientations
+        for tick, balls in enumerate(pocketed):
+            if balls:
+                poses[tick, list(balls), 2] = -self._radii[list(balls)]
         return _each(copies)
 
 

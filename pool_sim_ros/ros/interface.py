@@ -70,15 +70,19 @@ def _qos(depth: int, latched: bool = False) -> QoSProfile:
 CUE_VELOCITY = Topic(
     'cue_velocity',
     Twist,
-    'strike the cue ball: linear.x and linear.y, m/s; it has no id, so that a client cannot know '
-    'whether one was lost, nor send it again: use shot/request where that matters',
+    'strike the cue ball: linear.x and linear.y, m/s, and where balls spin angular, rad/s; it has '
+    'no id, so that a client cannot know whether one was lost, nor send it again: use shot/request '
+    'where that matters',
     _qos(BURST),
 )
 SHOT_REQUEST = Topic(
     'shot/request',
     String,
-    '1 to 4, or JSON {"id": "...", "shot": 3} or {"id": "...", "velocity": [-4.0, 0.0]}; one '
-    'with an id may be sent again and again until it is answered: it is played once',
+    '1 to 4, or JSON {"id": "...", "shot": 3} or {"id": "...", "velocity": [-4.0, 0.0]}; where '
+    'balls spin also "spin": [0.0, 50.0, 0.0] beside velocity, rad/s, or instead of velocity '
+    '"cue": {"speed": 2.0, "azimuth": 180.0, "elevation": 0.0, "side": 0.2, "above": -0.3}, m/s, '
+    'degrees and radii; {"id": "...", "place": {"9": [0.5, 0.4]}} puts single balls elsewhere '
+    'while all rest, m; one with an id may be sent again and again until it is answered: it is played once',
     _qos(BURST),
 )
 SHOT_RESPONSE = Topic(
@@ -91,23 +95,36 @@ SET_BALL_POSES = Topic(
     'orientation are ignored; header.frame_id is empty or the parameter frame_id',
     _qos(10),
 )
-BALL_POSES = Topic('ball_poses', PoseArray, 'each tick: every ball, cue ball first', _qos(10))
+BALL_POSES = Topic(
+    'ball_poses',
+    PoseArray,
+    'each tick: every ball, cue ball first, and how it is turned where balls spin; a ball in a '
+    "pocket is at the pocket's centre, one radius below the cloth",
+    _qos(10),
+)
 BALL_VELOCITIES = Topic(
-    'ball_velocities', Float64MultiArray, 'with each frame: (n, 2), m/s', _qos(10)
+    'ball_velocities',
+    Float64MultiArray,
+    'with each frame: (n, 2), m/s; where balls spin (n, 5), with their spins, rad/s',
+    _qos(10),
 )
 COLLISIONS = Topic(
     'collisions',
     Float64MultiArray,
     'before the frame that contains them: rows of simulator.COLLISION_COLUMNS. seq counts from '
     '0 and is never reset; t is sim time, s; kind 0 is ball a on ball b, kind 1 is ball a on '
-    'cushion b (0: x = 0, 1: x = length, 2: y = 0, 3: y = width); x, y the point of contact, m; '
-    'nx, ny the unit vector from a to b or into the cushion; speed of closing, m/s',
+    'cushion b (0: x = 0, 1: x = length, 2: y = 0, 3: y = width; where there are pockets the row '
+    'of table.cushion_segments, then of table.cushion_noses), kind 3 is ball a caught in pocket b; '
+    'x, y the point of contact, or the centre of the ball that is caught, m; nx, ny the unit '
+    'vector from a to b or into the cushion, else 0; speed of closing, or of the ball that is '
+    'caught, m/s',
     _qos(BURST),
 )
 STATE = Topic(
     'state',
     String,
-    'JSON: paused, moving, computing, tick, sim_time, real_time_factor; on change and at 1 Hz',
+    'JSON: paused, moving, computing, tick, sim_time, real_time_factor, pocketed (labels, in the '
+    'order in which they fell); on change and at 1 Hz',
     _qos(1, latched=True),
 )
 TABLE = Topic('table', String, 'JSON: the fields of physics.Table', _qos(1, latched=True))

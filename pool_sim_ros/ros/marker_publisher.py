@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import time
 
+import numpy as np
+from numpy.typing import NDArray
 from rclpy.node import Node
+from visualization_msgs.msg import MarkerArray
 
 from pool_sim_ros.physics import Table
 from pool_sim_ros.ros import interface
 from pool_sim_ros.ros.markers import Markers
-from pool_sim_ros.simulator import Frame
+from pool_sim_ros.simulator import Frame, start_layout
 
 LOOK_PERIOD = 0.1
 """Seconds between two looks for viewers; a look costs as much as a message."""
@@ -36,7 +39,9 @@ class MarkerPublisher:
         self._next_look = 0.0
         self._missed = False
         self._frame: Frame | None = None
-        self._publisher.publish(self._markers.everything(table.positions))
+        start = start_layout(table)
+        everything = self._markers.everything(start.positions, start.orientations, start.pocketed)
+        self._publisher.publish(everything)
 
     def frame(self, frame: Frame) -> None:
         """Send what a tick has changed.
@@ -60,24 +65,33 @@ class MarkerPublisher:
         if frame is None or not self._look_for_viewers():
             return
         if self._missed:
-            self._markers.changes(
-                frame.positions, frame.collisions[:0], started=False, rolling=False
-            )
+            self._changes(frame, frame.collisions[:0], started=False, rolling=False)
             self._missed = False
-        self._publisher.publish(self._markers.everything(frame.positions))
+        self._publisher.publish(self._everything(frame))
 
     def _show(self, frame: Frame, came: bool) -> None:
-        changes = self._markers.changes(
-            frame.positions,
-            frame.collisions,
-            started=frame.started,
-            rolling=(frame.moving or frame.finished) and not self._missed,
-        )
+        rolling = (frame.moving or frame.finished) and not self._missed
+        changes = self._changes(frame, frame.collisions, started=frame.started, rolling=rolling)
         self._missed = False
         if came or frame.started or (changes is not None and not frame.moving):
-            self._publisher.publish(self._markers.everything(frame.positions))
+            self._publisher.publish(self._everything(frame))
         elif changes is not None and self._viewers:
             self._publisher.publish(changes)
+
+    def _everything(self, frame: Frame) -> MarkerArray:
+        return self._markers.everything(frame.positions, frame.orientations, frame.pocketed)
+
+    def _changes(
+        self, frame: Frame, collisions: NDArray[np.float64], *, started: bool, rolling: bool
+    ) -> MarkerArray | None:
+        return self._markers.changes(
+            frame.positions,
+            collisions,
+            started=started,
+            rolling=rolling,
+            turned=frame.orientations,
+            pocketed=frame.pocketed,
+        )
 
     def _look_for_viewers(self) -> bool:
         """Return whether somebody has come since the last look; False if it is too early."""

@@ -7,21 +7,30 @@ from collections.abc import Sequence
 import numpy as np
 from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Point
-from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from pool_sim_ros.physics import Table
+from pool_sim_ros.ros.table_markers import new_marker, put, table_markers
+from pool_sim_ros.ros.trails import Trails
 from pool_sim_ros.simulator import COLLISION_COLUMNS
 
-CLOTH = (0.11, 0.42, 0.26)
-WOOD = (0.42, 0.25, 0.13)
 FLASH = (1.0, 0.95, 0.6)
 
-CLOTH_THICKNESS = 0.01
-CUSHION_WIDTH = 0.06
 TRAIL_WIDTH = 0.008
-TRAIL_HEIGHT = 0.003
 """m."""
+
+LABEL_HEIGHT = 2.7
+"""Of a label above the cloth, in radii."""
+
+LIGHT = 1.5
+"""Least sum of red, green and blue of a light ball."""
+
+SPOTS = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
+"""Where a ball that spins has spots: its turning is seen from wherever one looks."""
+
+SPOT_SIZE = 0.5
+SPOT_DEPTH = 0.8
+"""Diameter of a spot, and how far from the ball's centre its own centre is, in radii."""
 
 FLASH_TIME = 150_000_000
 """Duration of a flash in the viewer's time, ns."""
@@ -49,53 +58,49 @@ class Markers:
     def __init__(self, table: Table, frame_id: str) -> None:
         self._table = table
         self._frame_id = frame_id
+        self._spins = table.motion == 'ball'
         self._positions = np.full((len(table.balls), 2), np.nan)
+        self._turned: np.ndarray | None = None
         self._balls = [self._ball(i) for i in range(len(table.balls))]
         self._labels = [self._label(i) for i in range(len(table.balls))]
-        self._trails = self._marker('trails', 0, Marker.LINE_LIST, (TRAIL_WIDTH, 0.0, 0.0))
-        self._ends: dict[int, Point] = {}
-        self._clear_trails()
+        self._spots = [self._spots_of(i) for i in range(len(table.balls))] if self._spins else []
+        lines = self._marker('trails', 0, Marker.LINE_LIST, (TRAIL_WIDTH, 0.0, 0.0))
+        self._trails = Trails(lines, self._spins)
         self._flash_count = 0
         self._flashes: list[Marker] = []
         self._clean = self._marker('', 0, Marker.ARROW, (0.0, 0.0, 0.0))
         self._clean.action = Marker.DELETEALL
 
-    def everything(self, positions: np.ndarray) -> MarkerArray:
-        """Return all there is, for balls at `positions`, (n, 2), m; a viewer needs nothing else.
+    def everything(
+        self,
+        positions: np.ndarray,
+        turned: np.ndarray | None = None,
+        pocketed: Sequence[int] = (),
+    ) -> MarkerArray:
+        """Return all there is; a viewer needs nothing else.
 
         It begins with the end of whatever a viewer shows under this topic: a simulator that was
-        here before may have had more balls. It holds the flashes of the latest change.
+        here before may have had more balls. It holds the flashes of the latest change. Parameters
+        are as those of `changes`.
         """
-        self._move(range(len(self._balls)), positions)
+        self._move(range(len(self._balls)), positions, turned, pocketed)
         table = self.table().markers
-        moving = [*self._balls, *self._labels, self._trails, *self._flashes]
+        moving = [*self._balls, *self._spots, *self._labels, self._trails.marker, *self._flashes]
         return MarkerArray(markers=[self._clean, *table, *moving])
 
     def table(self) -> MarkerArray:
-        """Return what never changes: the cloth and the four cushions."""
-        length, width = self._table.length, self._table.width
-        height = 1.2 * float(self._table.radii.max())
-        cloth = self._marker('table', 0, Marker.CUBE, (length, width, CLOTH_THICKNESS), CLOTH)
-        _place(cloth, length / 2, width / 2, -CLOTH_THICKNESS / 2)
-        across = (CUSHION_WIDTH, width + 2 * CUSHION_WIDTH, height)
-        along = (length, CUSHION_WIDTH, height)
-        half = CUSHION_WIDTH / 2
-        cushions = []
-        for index, (size, x, y) in enumerate(
-            (
-                (across, -half, width / 2),
-                (across, length + half, width / 2),
-                (along, length / 2, -half),
-                (along, length / 2, width + half),
-            )
-        ):
-            cushion = self._marker('cushions', index, Marker.CUBE, size, WOOD)
-            _place(cushion, x, y, height / 2 - CLOTH_THICKNESS)
-            cushions.append(cushion)
-        return MarkerArray(markers=[cloth, *cushions])
+        """Return what never changes: the cloth and what bounds it."""
+        return MarkerArray(markers=table_markers(self._table, self._frame_id))
 
     def changes(
-        self, positions: np.ndarray, collisions: np.ndarray, *, started: bool, rolling: bool
+        self,
+        positions: np.ndarray,
+        collisions: np.ndarray,
+        *,
+        started: bool,
+        rolling: bool,
+        turned: np.ndarray | None = None,
+        pocketed: Sequence[int] = (),
     ) -> MarkerArray | None:
         """Return what a frame changes; None if it changes nothing.
 
@@ -110,32 +115,57 @@ class Markers:
         rolling : bool
             Whether the balls roll, or have just rolled to their rest. Balls that were placed
             elsewhere leave no trails.
+        turned : ndarray of shape (n, 4), optional
+            Unit quaternions x, y, z, w, where balls spin.
+        pocketed : sequence of int, optional
+            The balls in pockets.
         """
         self._flashes = []
-        moved = np.flatnonzero(np.any(positions != self._positions, axis=1)).tolist()
+        changed = np.any(positions != self._positions, axis=1)
+        rolled = np.flatnonzero(changed).tolist()
+        if turned is not None:
+            changed |= True if self._turned is None else np.any(turned != self._turned, axis=1)
+        moved = np.flatnonzero(changed).tolist()
         if not (moved or len(collisions) or started):
             return None
         if started or not rolling:
-            self._clear_trails()
+            self._trails.clear()
             self._positions = positions.copy()
         for row in collisions:
             self._turn(row)
         self._flashes = [self._flash(row) for row in collisions[-FLASHES:]]
-        self._move(moved, positions, moved if rolling and not started else ())
-        markers = [marker for i in moved for marker in (self._balls[i], self._labels[i])]
-        return MarkerArray(markers=[*markers, self._trails, *self._flashes])
+        if rolling and not started:
+            for i in rolled:
+                before, now = self._positions[i].tolist(), positions[i].tolist()
+                self._trails.extend(i, self._balls[i].color, before, *now)
+        self._move(moved, positions, turned, pocketed)
+        kinds = (
+            (self._balls, self._spots, self._labels) if self._spins else (self._balls, self._labels)
+        )
+        markers = [kind[i] for i in moved for kind in kinds]
+        return MarkerArray(markers=[*markers, self._trails.marker, *self._flashes])
 
     def _move(
-        self, balls: Sequence[int], positions: np.ndarray, rolling: Sequence[int] = ()
+        self,
+        balls: Sequence[int],
+        positions: np.ndarray,
+        turned: np.ndarray | None,
+        pocketed: Sequence[int],
     ) -> None:
-        for i in rolling:
-            end = self._ends.get(i) or self._begin(i, *self._positions[i].tolist())
-            end.x, end.y = positions[i].tolist()
         for i in balls:
             x, y = positions[i].tolist()
             for marker in (self._balls[i], self._labels[i]):
                 marker.pose.position.x, marker.pose.position.y = x, y
+            if turned is not None:
+                pose, radius = self._balls[i].pose, self._table.balls[i].radius
+                fallen = 2.0 * radius if i in pocketed else 0.0
+                pose.position.z = radius - fallen
+                self._labels[i].pose.position.z = LABEL_HEIGHT * radius - fallen
+                q = pose.orientation
+                q.x, q.y, q.z, q.w = turned[i].tolist()
+                self._spots[i].pose = pose
         self._positions = positions.copy()
+        self._turned = None if turned is None else turned.copy()
 
     def _turn(self, row: np.ndarray) -> None:
         """End the present line of each ball in a collision, and begin the next one there."""
@@ -143,47 +173,38 @@ class Markers:
         kind, a, b = (int(row[_COLUMN[name]]) for name in ('kind', 'a', 'b'))
         for ball, side in ((a, -1.0), (b, 1.0)) if kind == 0 else ((a, -1.0),):
             x, y = (point + side * self._table.radii[ball] * normal).tolist()
-            end = self._ends.get(ball)
-            if end is not None:
-                end.x, end.y = x, y
-            self._begin(ball, x, y)
-
-    def _begin(self, ball: int, x: float, y: float) -> Point:
-        color = self._balls[ball].color
-        start, end = (Point(x=x, y=y, z=TRAIL_HEIGHT) for _ in range(2))
-        self._trails.points.extend((start, end))
-        self._trails.colors.extend((color, color))
-        self._trails.action = Marker.ADD
-        self._ends[ball] = end
-        return end
-
-    def _clear_trails(self) -> None:
-        # Viewers complain of lines without points, so there is no such marker then.
-        self._trails.action = Marker.DELETE
-        self._trails.points = []
-        self._trails.colors = []
-        self._ends = {}
+            self._trails.turn(ball, self._balls[ball].color, x, y)
 
     def _ball(self, index: int) -> Marker:
         ball = self._table.balls[index]
         diameter = 2 * ball.radius
         marker = self._marker('balls', index, Marker.SPHERE, (diameter,) * 3, ball.color)
-        _place(marker, *ball.position, ball.radius)
+        put(marker, *ball.position, ball.radius)
         return marker
 
     def _label(self, index: int) -> Marker:
         ball = self._table.balls[index]
         size = (0.0, 0.0, 1.2 * ball.radius)
         marker = self._marker('labels', index, Marker.TEXT_VIEW_FACING, size, (1.0, 1.0, 1.0))
-        _place(marker, *ball.position, 2.7 * ball.radius)
+        put(marker, *ball.position, LABEL_HEIGHT * ball.radius)
         marker.text = ball.label
+        return marker
+
+    def _spots_of(self, index: int) -> Marker:
+        """Return the spots of a ball: light on a dark one, dark on a light one."""
+        ball = self._table.balls[index]
+        light = 0.0 if sum(ball.color) > LIGHT else 1.0
+        size = (SPOT_SIZE * ball.radius,) * 3
+        marker = self._marker('spots', index, Marker.SPHERE_LIST, size, (light,) * 3)
+        away = SPOT_DEPTH * ball.radius
+        marker.points = [Point(x=away * x, y=away * y, z=away * z) for x, y, z in SPOTS]
         return marker
 
     def _flash(self, row: np.ndarray) -> Marker:
         radius = float(self._table.radii[int(row[_COLUMN['a']])])
         number = self._flash_count % FLASHES
         marker = self._marker('flashes', number, Marker.SPHERE, (0.8 * radius,) * 3, FLASH)
-        _place(marker, float(row[_COLUMN['x']]), float(row[_COLUMN['y']]), radius)
+        put(marker, float(row[_COLUMN['x']]), float(row[_COLUMN['y']]), radius)
         marker.color.a = 0.8
         marker.lifetime = Duration(nanosec=FLASH_TIME)
         self._flash_count += 1
@@ -197,14 +218,4 @@ class Markers:
         size: Sequence[float],
         color: Sequence[float] = (1.0, 1.0, 1.0),
     ) -> Marker:
-        marker = Marker(ns=namespace, id=number, type=type_, action=Marker.ADD)
-        marker.header.frame_id = self._frame_id
-        marker.pose.orientation.w = 1.0
-        marker.scale.x, marker.scale.y, marker.scale.z = (float(part) for part in size)
-        red, green, blue = (float(part) for part in color)
-        marker.color = ColorRGBA(r=red, g=green, b=blue, a=1.0)
-        return marker
-
-
-def _place(marker: Marker, x: float, y: float, z: float) -> None:
-    marker.pose.position = Point(x=float(x), y=float(y), z=float(z))
+        return new_marker(self._frame_id, namespace, number, type_, size, color)

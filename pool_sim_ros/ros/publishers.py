@@ -14,7 +14,6 @@ from pool_sim_ros.ros.marker_publisher import MarkerPublisher
 from pool_sim_ros.ros.namesakes import Namesakes
 from pool_sim_ros.simulator import (
     COLLISION_COLUMNS,
-    VELOCITY_COLUMNS,
     Block,
     Code,
     Diagnosis,
@@ -23,6 +22,7 @@ from pool_sim_ros.simulator import (
     Response,
     Settings,
     table_to_json,
+    velocity_columns,
 )
 
 
@@ -42,7 +42,7 @@ class Publishers:
         self._node = node
         self._namesakes = Namesakes(node)
         self._to_poses = cdr.PosesWriter(settings.frame_id, settings.table.radii.tolist())
-        self._to_velocities = cdr.RowsWriter('ball', VELOCITY_COLUMNS)
+        self._to_velocities = cdr.RowsWriter('ball', velocity_columns(settings.table.motion))
         self._to_collisions = cdr.RowsWriter('collision', COLLISION_COLUMNS)
         self._block: Block | None = None
         self._response = self._create(interface.SHOT_RESPONSE)
@@ -60,7 +60,9 @@ class Publishers:
         if block is not self._block:
             self._block = block
             self._block_clocks = cdr.clock_bytes(block.stamps)
-            self._block_poses = self._to_poses.write(block.stamps, block.positions)
+            self._block_poses = self._to_poses.write(
+                block.stamps, block.positions, block.orientations, block.pocketed
+            )
             self._block_velocities = self._to_velocities.write(block.velocities)
             self._block_collisions = {
                 index: self._to_collisions.write(rows[np.newaxis])[0]

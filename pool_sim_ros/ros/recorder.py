@@ -13,8 +13,8 @@ from rclpy.subscription import Subscription
 from std_msgs.msg import String
 
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.ros.client import SimulatorError
 from pool_sim_ros.ros.sim_stamps import Heard, Recorded, in_sim_time
+from pool_sim_ros.ros.simulator_client import SimulatorError
 from pool_sim_ros.ros.simulator_link import SimulatorLink
 from pool_sim_ros.simulator import response_from_json, seconds_to_stamp
 

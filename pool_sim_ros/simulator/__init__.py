@@ -19,9 +19,11 @@ if TYPE_CHECKING:
         VELOCITY_COLUMNS,
         Block,
         Frame,
+        velocity_columns,
     )
     from pool_sim_ros.simulator.health import Diagnosis
     from pool_sim_ros.simulator.heard import response_from_json, state_from_json
+    from pool_sim_ros.simulator.layout import start_layout
     from pool_sim_ros.simulator.log_reader import read_log
     from pool_sim_ros.simulator.output import Output
     from pool_sim_ros.simulator.pacer import Pacer
@@ -98,11 +100,13 @@ else:
             'response_from_json': 'heard',
             'seconds_to_stamp': 'sim_time',
             'stamp_to_seconds': 'sim_time',
+            'start_layout': 'layout',
             'state_from_json': 'heard',
             'table_from_json': 'table_json',
             'table_to_json': 'table_json',
             'unreadable_request': 'shot_request',
             'values_from': 'parameter_values',
+            'velocity_columns': 'frame',
         },
     )
 
@@ -146,9 +150,11 @@ __all__ = [
     'response_from_json',
     'seconds_to_stamp',
     'stamp_to_seconds',
+    'start_layout',
     'state_from_json',
     'table_from_json',
     'table_to_json',
     'unreadable_request',
     'values_from',
+    'velocity_columns',
 ]

@@ -23,6 +23,12 @@ SPIN_COLUMNS = (*VELOCITY_COLUMNS, 'wx', 'wy', 'wz')
 """Columns of `Frame.velocities` and of `~/ball_velocities`, m/s: of discs, and of balls that spin,
 with their spins in rad/s."""
 
+
+def velocity_columns(motion: str) -> tuple[str, ...]:
+    """Return the columns of `Frame.velocities` on a table of this motion."""
+    return SPIN_COLUMNS if motion == 'ball' else VELOCITY_COLUMNS
+
+
 NO_COLLISIONS: NDArray[np.float64] = np.empty((0, len(COLLISION_COLUMNS)))
 """The collisions of a tick that has none."""
 

@@ -221,7 +221,7 @@ class Playback:
         start, orientations = self._start.orientations, None
         if start is not None:
             until = np.append(times[:moving], shot.duration) if ends_shot else times[:moving]
-            orientations = shot.orientations(until, start)
+            orientations = self._without_jumps(shot.orientations(until, start), start)
             velocities = np.concatenate([velocities, shot.spins(times[:moving])], axis=2)
         if ends_shot:
             stamps = stamps[: moving + 1]
@@ -241,6 +241,19 @@ class Playback:
             orientations=orientations,
             pocketed=self._next_pocketed(collisions),
         )
+
+    def _without_jumps(
+        self, orientations: NDArray[np.float64], start: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Return each of (k, n, 4) quaternions with the sign that is nearer to the one before.
+
+        Both signs are one orientation. The first follows the block before, or `start`.
+        """
+        block = self._block
+        before = start if block is None or block.orientations is None else block.orientations[-1]
+        each = np.concatenate([before[np.newaxis], orientations])
+        dots = np.sum(each[1:] * each[:-1], axis=2, keepdims=True)
+        return orientations * np.cumprod(np.where(dots < 0.0, -1.0, 1.0), axis=0)
 
     def _next_pocketed(self, collisions: Sequence[NDArray[np.float64]]) -> list[tuple[int, ...]]:
         """Return the balls in pockets at each of the next ticks, given the collisions of each."""

@@ -232,10 +232,10 @@ def _parse_fields(fields: dict[str, object], text: str) -> Request:
         keys = 'id, shot, velocity, spin, cue and place'
         return _bad(f'unknown key {quote(unknown[0])}; the keys are {keys}', text, request_id)
     kinds = [name for name in KINDS if name in fields]
+    if 'spin' in fields and kinds != ['velocity']:
+        return _bad('spin goes with velocity, and with nothing else', text, request_id)
     if len(kinds) != 1:
         return _bad('give either shot or velocity, or cue, or place', text, request_id)
-    if 'spin' in fields and kinds != ['velocity']:
-        return _bad('spin goes with velocity only', text, request_id)
     try:
         return _parse_kind(kinds[0], fields, request_id)
     except FieldError as error:
