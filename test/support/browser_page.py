@@ -40,6 +40,7 @@ class Page:
         """Put the balls back, and wait until the page shows it."""
         self.wait_for_rest()
         self.page.click('#reset')
+        self.get('scrollTo(0, 0)')
         self.wait(
             'page.table.balls.every(({ position: [x, y] }, i) =>'
             ' page.places[2 * i] === x && page.places[2 * i + 1] === y)'

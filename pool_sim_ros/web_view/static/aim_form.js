@@ -75,8 +75,9 @@ export class AimForm {
 
   hit(event) {
     const box = $('target').getBoundingClientRect();
-    const radius = box.width / 2;
-    this.aimAt((box.left + radius - event.clientX) / radius, (box.top + radius - event.clientY) / radius);
+    const [x, y] = [box.left + box.width / 2, box.top + box.height / 2];
+    const radius = box.width / $('target').viewBox.baseVal.width;
+    this.aimAt((x - event.clientX) / radius, (y - event.clientY) / radius);
   }
 
   nudge(event) {
