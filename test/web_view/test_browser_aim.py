@@ -41,7 +41,7 @@ def test_a_number_is_used_and_shown_as_it_is_typed(page):
     angle = np.radians(179.94)
     expected = 2.345 * np.array([np.cos(angle), np.sin(angle)])
     np.testing.assert_allclose(page.get('page.prediction.velocity'), expected, rtol=1e-15)
-    assert float(value(page, 'vx')) == pytest.approx(expected[0], abs=1e-6)
+    assert float(value(page, 'vx')) == pytest.approx(expected[0], abs=1e-4)
     velocities = []
     for direction in ('180', '-180', '540', '-540'):
         page.fill(direction=direction)
@@ -126,13 +126,18 @@ def ball_at(page, ball):
     return page.get(f'page.places.slice({2 * ball}, {2 * ball + 2})')
 
 
+def wait_for_ball(page, ball, x, y):
+    """Wait until a ball lies where a pointer, which is exact to a pixel, left it."""
+    place = f'page.places[{2 * ball}] - {x}, page.places[{2 * ball + 1}] - {y}'
+    page.wait(f'Math.hypot({place}) < 0.005')
+
+
 def test_a_ball_is_dragged_to_where_it_shall_lie(page):
     page.page.mouse.move(*page.pixel(*TABLE.positions[9]))
     page.page.mouse.down()
     page.page.mouse.move(*page.pixel(1.6, 0.3), steps=5)
     page.page.mouse.up()
-    page.wait(f'page.places[18] !== {TABLE.positions[9][0]}')
-    assert ball_at(page, 9) == pytest.approx([1.6, 0.3], abs=0.005)
+    wait_for_ball(page, 9, 1.6, 0.3)
     other = TABLE.positions[4]
     page.page.mouse.move(*page.pixel(1.6, 0.3))
     page.page.mouse.down()
@@ -150,8 +155,7 @@ def test_the_cue_ball_is_dragged_where_this_is_chosen(page):
     page.page.mouse.down()
     page.page.mouse.move(*page.pixel(1.7, 0.8), steps=5)
     page.page.mouse.up()
-    page.wait(f'page.places[0] !== {TABLE.positions[0][0]}')
-    assert ball_at(page, 0) == pytest.approx([1.7, 0.8], abs=0.005)
+    wait_for_ball(page, 0, 1.7, 0.8)
     assert page.get('page.aim.active') is False
 
 

@@ -20,7 +20,7 @@ export const play = {
   undo: () => (canPlay() ? send({ do: 'undo' }) : advise('Wait until the balls are at rest.')),
   shoot() {
     if (!canPlay()) advise('Wait until the balls are at rest.');
-    else if (page.sunk?.[0]) advise('The cue ball is in a pocket: drag it onto the table first.');
+    else if (page.sunk?.[0]) advise('The cue ball is in a pocket.');
     else if (page.form.refused) advise(`Nothing was shot. ${$('refusal').textContent}`);
     else page.aim.shoot();
   },

@@ -112,7 +112,7 @@ export class AimForm {
     for (const [id, value] of Object.entries(values)) {
       const kept = document.activeElement === $(id) || value === undefined;
       const exact = aim.given || !id.startsWith('v');
-      if (!kept) $(id).value = exact ? String(value) : String(Number(value.toFixed(6)));
+      if (!kept) $(id).value = exact ? String(value) : String(Number(value.toFixed(4)));
     }
     if (!this.refused || !Object.keys(FIELDS).includes(document.activeElement?.id)) this.refuse(null, null);
     $('tip').setAttribute('cx', String(-aim.side));

@@ -136,19 +136,25 @@ export class Painter {
       c.strokeStyle = color;
       c.stroke();
     }
-    this.drawReadout(readout, at(tip + 0.12));
+    this.drawReadout(readout, at(tip + 0.12), at(0));
     c.restore();
   }
 
-  // The numbers beside the cue, within the picture.
-  drawReadout(text, [x, y]) {
+  // The numbers beside the cue, within the picture, and not over the ball if that can be.
+  drawReadout(text, [x, y], ball) {
     const c = this.context;
     c.font = '600 13px system-ui, sans-serif';
     c.textBaseline = 'middle';
     const [width, height] = [c.measureText(text).width + 14, 24];
     const fit = (place, size, most) => Math.max(4, Math.min(most - size - 4, place));
-    const left = fit(x + 12, width, this.geometry.width);
-    const top = fit(y - height - 12, height, this.geometry.height);
+    const apart = this.table.balls[0].radius * this.geometry.scale + 8;
+    const places = [[12, -height - 12], [12, 12], [-width - 12, -height - 12], [-width - 12, 12]].map(([dx, dy]) => {
+      const [left, top] = [fit(x + dx, width, this.geometry.width), fit(y + dy, height, this.geometry.height)];
+      const [bx, by] = [ball[0] - Math.max(left, Math.min(left + width, ball[0])),
+        ball[1] - Math.max(top, Math.min(top + height, ball[1]))];
+      return { left, top, free: Math.hypot(bx, by) > apart };
+    });
+    const { left, top } = places.find(({ free }) => free) ?? places[0];
     c.fillStyle = 'rgb(0 0 0 / 0.72)';
     c.beginPath();
     c.roundRect(left, top, width, height, 6);

@@ -15,7 +15,7 @@ export function layOut() {
   if (!page.table) return;
   const width = page.canvas.parentElement.clientWidth;
   const flat = window.innerHeight < 500; // a phone on its side
-  const height = Math.max(240, window.innerHeight * (flat ? 0.85 : width < 600 ? 0.56 : 0.66));
+  const height = Math.max(240, window.innerHeight * (flat ? 0.85 : width < 600 ? 0.64 : 0.66));
   page.painter.fit(page.table, width, height, $('axes').checked ? page.units : null);
   page.words = new Words(page.table, page.painter.geometry.upright);
   page.unfit = true;
@@ -29,7 +29,7 @@ function showFits(places) {
   const fits = ends?.every(Boolean) && layoutIs(places, ends);
   showResult(fits ? result : null, page.table, page.words, page.units);
   $('print').hidden = !(strike.exact && fits);
-  page.standing = strike.fits(places) || Boolean(state?.moving || state?.computing);
+  page.standing = strike.fits(places, Boolean(state?.moving || state?.computing));
   $('history').disabled = !(strike.shot && page.standing);
 }
 
@@ -80,7 +80,10 @@ function draw() {
   showContacts(page.standing ? strike.shot : null, page.words,
     live ? strike.since(timeline.time) ?? 0 : replay.time, live);
   const speeds = live ? timeline.speeds() : strike.shot.speeds(replay.time);
-  showReadings(live ? timeline.time : replay.time, speeds, page.state?.pocketed);
+  const { balls } = page.table;
+  const pocketed = live ? page.state?.pocketed
+    : balls.filter((_, ball) => strike.shot.sunk(replay.time)[ball]).map(({ label }) => label);
+  showReadings(live ? timeline.time : replay.time, speeds, pocketed);
   if (still && live && !page.flashes.length && !page.dirty) return;
   page.dirty = aim.active || Boolean(hand.held);
   const scene = picture();

@@ -32,6 +32,7 @@ function notice() {
   if (page.state.computing && page.compiling) return `Your shot waits until ${until}`;
   if (page.compiling) return `Compiling the physics. Shots, and the paths while you aim, wait until ${until}`;
   if (page.waits) return 'The shot is being computed. The first one waits until the physics is compiled.';
+  if (canPlay() && !canStrike()) return 'The cue ball is in a pocket. Drag it onto the table, or type its position.';
   return null;
 }
 

@@ -12,6 +12,7 @@ export class Strike {
   begin() {
     this.start = null; // sim time of the strike, s
     this.first = null; // sim time of its first contact, s
+    this.rewound = false; // whether the balls lie again where they lay before it
   }
 
   // `shot`: a Trajectory, or null where none is known.
@@ -31,14 +32,18 @@ export class Strike {
 
   // Time since the strike at a sim time, s; null where it is not known yet.
   since(time) {
+    if (this.rewound) return 0;
     if (this.start !== null) return time - this.start;
     const first = this.shot?.events[0];
     return first && this.first !== null ? time - this.first + first[0] : null;
   }
 
-  // Whether the balls lie where it began or where it ended; [x0, y0, ...] in m
-  fits(places) {
-    return Boolean(this.shot) && (layoutIs(places, this.shot.ends) || layoutIs(places, this.shot.start));
+  // Whether it is of this table: the balls lie where it began or ended; [x0, y0, ...] in m
+  fits(places, moving) {
+    if (!this.shot) return false;
+    const ended = layoutIs(places, this.shot.ends);
+    this.rewound = !moving && !ended && layoutIs(places, this.shot.start);
+    return ended || this.rewound || moving;
   }
 }
 
