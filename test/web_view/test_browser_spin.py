@@ -83,7 +83,7 @@ def test_the_target_says_where_the_tip_hits(page):
     assert page.get('[page.aim.side, page.aim.above]') == [0, 0]
 
 
-def test_a_break_turns_the_balls_and_lists_what_falls(page):
+def test_a_break_turns_the_balls_and_lists_what_falls(page, site, show):
     page.fill(**BREAK)
     page.shoot()
     expected = broken(speed=9.0, azimuth=179.2)
@@ -108,6 +108,11 @@ def test_a_break_turns_the_balls_and_lists_what_falls(page):
         caught = events[(events['kind'] == EventKind.POCKETED) & (events['t'] <= time)]['a']
         sunk = page.get('page.strike.shot.sunk(page.replay.time)')
         assert np.flatnonzero(sunk).tolist() == sorted(caught.tolist())
+    late = show(site.address)
+    late.wait('page.standing && page.strike.shot && page.strike.shot.turns')
+    turns = np.array(late.get('page.strike.shot.turnsAt(0.5)'))
+    alike = np.abs(np.sum(turns * expected.orientations(0.5), axis=1))
+    assert alike.min() > np.cos(0.01 / 2), 'within 0.01 rad'
 
 
 def test_the_shots_of_the_report_are_not_offered_here(page):

@@ -30,6 +30,9 @@ function showFits(places) {
   showResult(fits ? result : null, page.table, page.words, page.units);
   $('print').hidden = !(strike.exact && fits);
   page.standing = strike.fits(places, Boolean(state?.moving || state?.computing));
+  if (strike.shot && page.turns && !strike.shot.turns && layoutIs(places, strike.shot.ends)) {
+    strike.shot.turnTo(page.turns);
+  }
   $('history').disabled = !(strike.shot && page.standing);
 }
 

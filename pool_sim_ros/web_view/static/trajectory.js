@@ -1,6 +1,6 @@
 // A shot that can be looked up at any time: what the server sends of a trajectory.
 
-import { turned } from './turning.js';
+import { inverse, product, turned } from './turning.js';
 
 const SAG = 5e-5; // m between a curve and its corners: far less than a pixel
 const STILL = { vx: 0, vy: 0, ax: 0, ay: 0, wx: 0, wy: 0, wz: 0, turnX: 0, turnY: 0 };
@@ -16,17 +16,30 @@ export class Trajectory {
       of this.segments) {
       this.rows[ball].push({ t, x, y, vx, vy, ax, ay, wx, wy, wz, turnX, turnY });
     }
-    this.turns = turns;
     const { mu_spin: mu, gravity } = table;
     this.loss = mu ? (5 * mu * gravity) / (2 * table.balls[0].radius) : 0;
+    this.turns = null;
+    if (turns) this.turnFrom(turns);
+  }
+
+  // Take how the balls are turned at the strike.
+  turnFrom(turns) {
+    this.turns = turns;
     this.rows.forEach((rows, ball) => {
-      let turn = turns?.[ball] ?? UPRIGHT;
+      let turn = turns[ball];
       rows.forEach((row, i) => {
         row.turn = turn;
         const end = rows[i + 1]?.t ?? this.duration;
-        if (turns) turn = turned(turn, row, this.loss, Math.max(0, end - row.t));
+        turn = turned(turn, row, this.loss, Math.max(0, end - row.t));
       });
     });
+  }
+
+  // The same from how they are turned at the end, for a page that came after the strike.
+  turnTo(turns) {
+    this.turnFrom(turns.map(() => UPRIGHT));
+    const whole = this.turnsAt(this.duration);
+    this.turnFrom(turns.map((turn, ball) => product(inverse(whole[ball]), turn)));
   }
 
   // What a ball does at a time, and since when.

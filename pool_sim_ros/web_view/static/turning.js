@@ -11,6 +11,8 @@ export function product([ax, ay, az, aw], [bx, by, bz, bw]) {
   ];
 }
 
+export const inverse = ([x, y, z, w]) => [-x, -y, -z, w];
+
 // Turn `q` about a vector by its length, rad.
 function turnBy(q, x, y, z) {
   const angle = Math.hypot(x, y, z);
