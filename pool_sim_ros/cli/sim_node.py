@@ -26,7 +26,7 @@ def _parser() -> argparse.ArgumentParser:
         *_endpoints(),
         '',
         'parameters:',
-        *(f'  {spec.name}: {spec.doc} ({spec.change.value})' for spec in PARAMETERS.values()),
+        *(f'  {spec.name}: {spec.doc} ({spec.when})' for spec in PARAMETERS.values()),
     ]
     return Parser(
         prog='sim_node',

@@ -82,7 +82,8 @@ SHOT_REQUEST = Topic(
     'balls spin also "spin": [0.0, 50.0, 0.0] beside velocity, rad/s, or instead of velocity '
     '"cue": {"speed": 2.0, "azimuth": 180.0, "elevation": 0.0, "side": 0.2, "above": -0.3}, m/s, '
     'degrees and radii; {"id": "...", "place": {"9": [0.5, 0.4]}} puts single balls elsewhere '
-    'while all rest, m; one with an id may be sent again and again until it is answered: it is played once',
+    'while all rest, m; one with an id may be sent again and again until it is answered: it is '
+    'played once',
     _qos(BURST),
 )
 SHOT_RESPONSE = Topic(

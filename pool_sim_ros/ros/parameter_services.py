@@ -16,6 +16,7 @@ from rcl_interfaces.srv import (
     SetParameters,
     SetParametersAtomically,
 )
+from rclpy.exceptions import ParameterNotDeclaredException
 from rclpy.parameter import Parameter
 
 MOST_NAMES = 1000
@@ -61,6 +62,9 @@ def checked(service: Any, callback: Callback, warn: Callable[[str], None]) -> Ca
         if not reason:
             try:
                 return set_them()
+            except ParameterNotDeclaredException:
+                names = ', '.join(parameter.name[:60] for parameter in parameters[:10])
+                reason = f'{names}: no such parameter, or not on this table'
             except Exception as error:
                 reason = f'{type(error).__name__}: {error}'
         warn(f'{service.__name__} was refused: {reason}')

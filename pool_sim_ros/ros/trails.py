@@ -11,8 +11,9 @@ from visualization_msgs.msg import Marker
 TRAIL_HEIGHT = 0.003
 """m."""
 
-BEND = 5e-4
-"""Most by which a ball is off the line that shows its way, m: a curve becomes several lines."""
+BEND = 2e-3
+"""How far a ball may be off the way in which its line began, m: a curve becomes lines that are at
+most a quarter of it off."""
 
 
 class Trails:

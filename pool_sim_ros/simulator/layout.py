@@ -75,5 +75,6 @@ def pockets_at(table: Table, positions: NDArray[np.float64]) -> NDArray[np.int64
     if not len(table.pockets):
         return np.full(len(positions), -1)
     apart = positions[:, np.newaxis] - table.pockets[:, :2]
-    inside = np.sum(apart * apart, axis=2) < table.pockets[:, 2] ** 2
+    with np.errstate(over='ignore'):  # anybody may ask for any place
+        inside = np.sum(apart * apart, axis=2) < table.pockets[:, 2] ** 2
     return np.where(inside.any(axis=1), inside.argmax(axis=1), -1)

@@ -94,6 +94,12 @@ class ParameterSpec:
         """Whether it is a list of strings."""
         return isinstance(self.default, list) and isinstance(self.default[0], str)
 
+    @property
+    def when(self) -> str:
+        """When a new value counts, and on which tables, in words."""
+        only = f'; only where table.motion is {self.motion}' if self.motion else ''
+        return self.change.value + only
+
     def on(self, motion: str) -> ParameterSpec:
         """Return it as it is on a table of this motion."""
         return replace(self, choices=self.choices_of.get(motion, self.choices))

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.me212 import inches
-from pool_sim_ros.physics import Trajectory
+from pool_sim_ros.physics import Table, Trajectory
 from pool_sim_ros.simulator.job import Job
-from pool_sim_ros.simulator.layout import Layout
+from pool_sim_ros.simulator.layout import Layout, pockets_at
 from pool_sim_ros.simulator.shot_request import Code, Phase, Request, Response
 
 
@@ -85,35 +85,32 @@ def done(
     start_time : float
         Sim time at which the balls started, s.
     """
-    pocketed = None
-    if response.spin is not None:
-        numbers = zip(labels, trajectory.pocketed.tolist(), strict=True)
-        pocketed = {label: number for label, number in numbers if number >= 0}
+    spins = response.spin is not None
     return replace(
         response,
         phase=Phase.DONE,
         t_start=start_time,
         t_end=start_time + trajectory.duration,
         events=len(trajectory.events),
-        pocketed=pocketed,
+        pocketed=_pocketed(labels, trajectory.pocketed) if spins else None,
         **_positions(labels, trajectory.final_positions),
     )
 
 
-def placed(request: Request, labels: Sequence[str], layout: Layout, time: float) -> list[Response]:
+def placed(request: Request, table: Table, layout: Layout, time: float) -> list[Response]:
     """Return the responses to balls that were placed elsewhere: accepted, and done.
 
     Parameters
     ----------
     request : Request
-    labels : sequence of n str
-        Of the balls, in order.
+    table : Table
     layout : Layout
         How all balls lie then.
     time : float
         Sim time of the tick that shows it, s.
     """
     accepted = Response(id=request.id, phase=Phase.ACCEPTED, place=request.place)
+    pockets = pockets_at(table, layout.positions)
     return [
         accepted,
         replace(
@@ -122,9 +119,17 @@ def placed(request: Request, labels: Sequence[str], layout: Layout, time: float)
             t_start=time,
             t_end=time,
             events=0,
-            **_positions(labels, layout.positions),
+            pocketed=_pocketed(table.labels, pockets) if table.motion == 'ball' else None,
+            **_positions(table.labels, layout.positions),
         ),
     ]
+
+
+def _pocketed(labels: Sequence[str], pockets: NDArray[np.int64]) -> dict[str, int]:
+    """Return the pocket of each ball that lies in one, by labels and (n,) numbers."""
+    return {
+        label: number for label, number in zip(labels, pockets.tolist(), strict=True) if number >= 0
+    }
 
 
 def _positions(labels: Sequence[str], positions: NDArray[np.float64]) -> dict[str, Any]:

@@ -234,7 +234,7 @@ class Simulation:
         table, time = self.settings.table, self._playback.time_of(self.next_tick)
         layout = with_placed(table, self._playback.layout, places)
         self._lay_out(layout)
-        accepted, done = responses.placed(request, table.labels, layout, time)
+        accepted, done = responses.placed(request, table, layout, time)
         self._more.append(done)
         self._history.add(str(request.id), request.content, done)
         return accepted

@@ -9,8 +9,9 @@ import time
 import pytest
 from process_harness import Process, node_process
 
+from pool_sim_ros.cli.shot import _Parser
 from pool_sim_ros.me212.log import format_position, format_shot_head
-from pool_sim_ros.physics import report_table, simulate
+from pool_sim_ros.physics import cue_strike, pool_table, report_table, simulate
 
 QUICK = {'real_time_factor': 20.0}
 
@@ -142,6 +143,93 @@ def test_the_client_needs_no_physics(domain):
     code = 'import sys, pool_sim_ros.cli.shot; sys.exit("numba" in sys.modules)'
     command = [sys.executable, '-c', code]
     assert subprocess.run(command, timeout=60, check=False).returncode == 0
+
+
+@pytest.fixture(scope='module')
+def pool(domain):
+    names = ['--ros-args', '-r', '__node:=pool']
+    with node_process(*names, **{'table.preset': '7ft', 'real_time_factor': 20.0}) as process:
+        yield process
+
+
+def on_pool(*args):
+    """Return what the command prints that is given these words for a 7-foot table."""
+    with Process('cli.shot', *args, '--node', 'pool', *PATIENT) as shot:
+        assert shot.wait() == 0, shot.stderr
+        assert shot.stderr == ''
+        return shot.stdout
+
+
+def test_a_cue_is_described_by_numbers_of_which_some_are_negative(pool):
+    velocity, spin = cue_strike(
+        pool_table('7ft'), speed=2.0, azimuth=180.0, side=0.2, above=-0.3, elevation=2.0
+    )
+    given = ['--cue', '2.0', '180', '--side', '0.2', '--above', '-0.3', '--elevation', '2']
+    accepted, _, log = on_pool(*given).partition('\n')
+    assert f'[{velocity[0]:.3f}, {velocity[1]:.3f}] m/s' in accepted
+    assert f'spin [{", ".join(f"{w:.2f}" for w in spin)}] rad/s' in accepted
+    assert log.count('(in)') == 16
+
+
+def test_the_table_is_driven_without_other_tools(pool):
+    assert 'start layout' in on_pool('reset')
+    assert on_pool('pause') == 'paused\n'
+    first = int(on_pool('step').removeprefix('at tick '))
+    assert int(on_pool('step').removeprefix('at tick ')) == first + 1
+    placed = on_pool('place', '9', '0.9', '0.3', 'C', '1.4', '0.5')
+    assert placed == 'ball 9 at [0.9, 0.3] m, ball C at [1.4, 0.5] m\n'
+    assert on_pool('resume') == 'playing\n'
+    out = on_pool('--velocity', '-1', '0', '--spin', '0', '-20', '1e1')
+    assert 'spin [0.00, -20.00, 10.00] rad/s' in out
+    on_pool('reset')
+    out = on_pool('--cue', '9', '180.3', '--side', '0.1', '--above', '0.2')
+    assert out.rstrip().splitlines()[-1] == '    In pockets: C in 0, 15 in 0'
+
+
+@pytest.mark.parametrize(
+    ('args', 'words'),
+    [
+        (['step'], 'set_paused first'),
+        (['place', '9', '0', '0'], 'BAD_LAYOUT'),
+        (['place', 'x', '0.5', '-0.3'], 'BAD_LAYOUT'),
+        (['--cue', '2', '180', '--side', '0.7'], 'miscue'),
+        (['--cue', '99', '180'], 'TOO_FAST'),
+    ],
+)
+def test_what_the_table_refuses_is_one_clear_line_and_status_1(pool, args, words):
+    with Process('cli.shot', *args, '--node', 'pool', *PATIENT) as shot:
+        assert shot.wait() == 1
+        assert words in shot.stderr and shot.stderr.count('\n') == 1 and shot.stdout == ''
+
+
+@pytest.mark.parametrize(
+    ('args', 'words'),
+    [
+        (['place'], 'LABEL X Y'),
+        (['place', '9', '0.5'], 'LABEL X Y'),
+        (['place', '9', '0.5', 'nan'], 'finite'),
+        (['place', '9', '0', '0', '9', '1', '1'], 'twice'),
+        (['reset', '1'], 'too much'),
+        (['1', '2'], 'too much'),
+        (['rest'], 'reset, pause, resume, step or place'),
+        (['step', '--velocity', '1', '0'], 'does not go with step'),
+        (['--velocity', '1', '0', '--side', '0.1'], 'goes with --cue'),
+        (['--cue', '1', '0', '--spin', '1', '0', '0'], 'goes with --velocity'),
+        (['--cue', '1', '0', '--velocity', '1', '0'], 'either'),
+        (['--cue', '1'], '--cue'),
+    ],
+)
+def test_what_does_not_go_together_is_explained(capsys, args, words):
+    with pytest.raises(SystemExit) as end:
+        _Parser().parse_args(args)
+    assert end.value.code == 2 and words in capsys.readouterr().err
+
+
+def test_options_and_actions_come_in_any_order():
+    for words in (['place', '9', '-1', '2'], ['--node', 'x', 'place', '9', '-1', '2']):
+        assert _Parser().parse_args(words).places == {'9': (-1.0, 2.0)}
+    options = _Parser().parse_args(['place', '--node', 'x', 'C', '1', '2', '9', '.5', '1e-1'])
+    assert options.places == {'C': (1.0, 2.0), '9': (0.5, 0.1)} and options.node == 'x'
 
 
 @pytest.mark.parametrize('args', [['5'], ['--velocity', '0', '0']])

@@ -1,7 +1,7 @@
 """The command `sim_node` where nothing is compiled, or nothing that is compiled can be kept."""
 
 import pytest
-from process_harness import node_process
+from process_harness import node_process, start_node
 from ros_harness import Observer
 
 
@@ -26,3 +26,12 @@ def test_where_no_kernel_can_be_kept(ros, monkeypatch, tmp_path):
         plays(ros)
         assert 'Traceback' not in process.stderr
         assert process.stderr.count('cannot keep') == 1
+
+
+@pytest.mark.soak
+def test_it_says_that_it_compiles_for_balls_that_spin(domain, monkeypatch, tmp_path):
+    monkeypatch.setenv('NUMBA_CACHE_DIR', str(tmp_path))
+    with start_node(**{'table.preset': '7ft'}) as process:
+        process.wait_for('compiling')
+        process.interrupt()
+        assert process.wait() == 0

@@ -105,6 +105,44 @@ def test_the_first_shots_compile_nothing_more(law, balls, warm, integrator):
     assert int(count) >= 6  # else nothing was looked at
 
 
+FIRST_SPINS = """
+import gc, sys
+import numpy as np
+from pool_sim_ros.physics import check_layout, compile_kernels, cue_strike, pool_table, simulate
+from pool_sim_ros.physics.jit import Kernel
+
+def compiled():
+    kernels = [thing for thing in gc.get_objects() if isinstance(thing, Kernel)]
+    return {
+        f'{k.__module__}.{k.__qualname__}': len(k.for_python.overloads)
+        for k in kernels if 'for_python' in vars(k)
+    }
+
+table = pool_table(sys.argv[1])
+compile_kernels(table)
+before = compiled()
+velocity, spin = cue_strike(table, speed=3.0, azimuth=180.0)
+for given in (None, spin, list(spin), tuple(spin)):
+    for layout in (None, table.positions, np.array(table.positions)):
+        shot = simulate(table, velocity, spins=given, positions=layout, until=2.0)
+        for times in (0.0, [0.0, 0.5], np.linspace(0.0, 1.0, 64)):
+            shot.positions(times), shot.velocities(times), shot.spins(times)
+            turned = shot.orientations(times)
+            shot.orientations(times, shot.orientations(0.5))
+        check_layout(table, shot.final_positions)
+after = compiled()
+print(*(name for name in after if after[name] > before.get(name, 0)))
+print(len(after))
+"""
+
+
+@pytest.mark.parametrize('name', ['7ft', 'carom'])
+def test_the_first_shots_of_balls_that_spin_compile_nothing_more(name):
+    more, count = run(FIRST_SPINS, name).split('\n')[:2]
+    assert more == ''
+    assert int(count) >= 6
+
+
 OTHER_TABLES = """
 import dataclasses
 from tables import table_of

@@ -16,6 +16,7 @@ from pool_sim_ros.simulator.settings import values_of
 OLD = Path(__file__).with_name('data') / 'session_97539c6.log'
 POOL = {'format': 'pool_sim_ros command log', 'version': VERSION}
 TURNED = [[0.6, 0.0, 0.0, 0.8]] * 16
+PLACE = {'command': 'place', 'positions': [[1, 2]] * 16}
 
 
 @pytest.fixture(scope='module')
@@ -69,7 +70,7 @@ def test_spins_and_orientations_are_read_back_bit_for_bit(tmp_path, head):
         ({'command': 'strike', 'velocity': [1, 0], 'spin': [1, 0, float('nan')]}, 'spin must be 3'),
         ({'command': 'strike', 'velocity': [1, 0], 'wind': 1}, 'may have spin'),
         ({'command': 'strike', 'spin': [1, 0, 0]}, 'must have the keys'),
-        ({'command': 'place', 'positions': [[1, 2]] * 16, 'orientations': TURNED[:3]}, '16 rows'),
+        ({**PLACE, 'orientations': TURNED[:3]}, '16 rows'),
         (
             {'command': 'place', 'positions': [[1, 2]] * 16, 'orientations': [[1, 1, 0, 0]] * 16},
             'unit',
