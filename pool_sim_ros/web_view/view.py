@@ -61,6 +61,7 @@ class View:
         self._state: dict[str, Any] | None = None
         self._frame: bytes | None = None
         self._early: bytes | None = None
+        self._struck: str | None = None
         self._strikes = Strikes(self._tell_strike, self._time_slice)
         self._printed = published_final_positions()
         self._loop = asyncio.get_running_loop()
@@ -160,6 +161,8 @@ class View:
     def on_response(self, response: Any) -> None:
         """Show the response to a request, beside what the report printed."""
         content = response_from_json(response.data)
+        if self._is_repeated(content):
+            return
         done = content['phase'] == Phase.DONE and content['velocity'] is not None
         self._follow(content, done)
         printed = self._printed.get(content['shot']) if done and content['as_printed'] else None
@@ -168,6 +171,16 @@ class View:
         self.pages.tell('response', {**content, 'printed': printed})
         if done:
             self.pages.tell('result', {**content, 'printed': printed}, keep=True)
+
+    def _is_repeated(self, content: dict[str, Any]) -> bool:
+        """Return whether a request was sent again, so that this is no news."""
+        phase, request_id = content['phase'], content['id']
+        if content['velocity'] is None or phase == Phase.REJECTED:
+            return False
+        if phase == Phase.ACCEPTED:
+            before, self._struck = self._struck, request_id
+            return bool(before == request_id)
+        return self._struck not in (None, request_id)
 
     def _follow(self, content: dict[str, Any], done: bool) -> None:
         """Keep the latest strike."""
@@ -257,7 +270,7 @@ class View:
         if looks < SILENCE:
             self._silence = self._loop.call_later(1.0, self._miss, looks + 1)
             return
-        self._state = self._frame = None
+        self._state = self._frame = self._struck = None
         self.pages.forget('state')
         self.pages.forget('result')
         self._strikes.forget()

@@ -109,14 +109,18 @@ def test_the_keys_alone_do_everything(site, show):
     page.wait('page.state.moving')
     page.press('r')
     page.wait_for_rest()
+    page.press('3')
+    page.wait_for_result()
     page.page.locator('h1').click()
     reached = set()
-    for _ in range(20):
+    for _ in range(45):
         page.press('Tab')
         reached.add(page.get('document.activeElement.id || document.activeElement.dataset.shot'))
         if page.get('document.activeElement !== document.body'):
             assert page.get('getComputedStyle(document.activeElement).outlineStyle') != 'none'
-    wanted = {'table', 'direction', 'strength', 'shoot', '1', '4', 'pause', 'reset', 'speed'}
+    wanted = {'table', 'direction', 'strength', 'vx', 'vy', 'fine', 'shoot', '1', '4', 'pause'}
+    wanted |= {'replay', 'back', 'bar', 'forward', 'replay-speed', 'undo', 'reset', 'link', 'speed'}
+    wanted |= {'ball', 'place-x', 'place-y', 'place', 'take', 'axes', 'units', 'contacts'}
     assert wanted <= reached
 
 

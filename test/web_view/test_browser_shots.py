@@ -81,6 +81,25 @@ def test_the_bar_shows_any_time_of_the_shot(page):
     assert later == np.count_nonzero(contacts['t'] > 11 * FRAME) > 0
 
 
+def test_the_keys_alone_scrub_replay_and_undo(page):
+    page.page.focus('#bar')
+    page.press('Home', 'ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowLeft')
+    assert page.get('page.replay.time') == pytest.approx(2 * FRAME)
+    assert page.page.get_attribute('#bar', 'aria-valuetext') == '0.033 of 1.519 s'
+    page.press('End')
+    assert page.get('page.replay.time') == page.get('page.strike.shot.duration')
+    page.page.focus('#table')
+    page.press('p')
+    page.wait('page.replay.playing')
+    page.press('Escape')
+    page.wait('page.replay.time === null')
+    page.press('u')
+    start = TABLE.positions.ravel().tolist()
+    page.wait(f'page.places.every((place, i) => place === {start}[i])')
+    page.wait('page.strike.rewound')
+    assert page.text('when').startswith('0.000 of')
+
+
 def test_replay_plays_at_a_chosen_speed_to_the_end(page):
     page.page.select_option('#replay-speed', '0.5')
     page.page.click('#replay')

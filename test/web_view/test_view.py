@@ -420,6 +420,22 @@ def test_a_strike_is_withdrawn_where_the_balls_end_elsewhere():
     assert on_site(use) is None
 
 
+@pytest.mark.parametrize('phase', ['accepted', 'done', 'preempted'])
+def test_an_answer_to_a_request_that_was_sent_again_changes_nothing(phase):
+    async def use(site):
+        await with_everything(site)
+        site.respond(**ACCEPTED)
+        strike = await heard_strike(site)
+        again = played((-4.0, 0.0)) | {'phase': phase, 'reason': 'x'}
+        site.respond(**again, id='x' if phase == 'accepted' else 'an earlier one')
+        heard = await site.heard()
+        return strike, heard, await site.heard(site.view.pages.open())
+
+    strike, heard, late = on_site(use)
+    assert not {'strike', 'response', 'result'} & set(heard)
+    assert late['strike'] == [strike] and 'result' not in late
+
+
 def test_undo_puts_back_what_the_strike_moved():
     async def use(site):
         await with_everything(site)

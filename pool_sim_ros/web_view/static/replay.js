@@ -73,7 +73,8 @@ export class Replay {
     const bar = $('bar');
     const frames = Math.ceil(shot.duration / FRAME);
     if (bar.max !== String(frames)) bar.max = String(frames);
-    if (Math.abs(Number(bar.value) - time / FRAME) >= 1 || time === shot.duration) bar.value = String(Math.ceil(time / FRAME));
+    const frame = time === shot.duration ? frames : Math.round(time / FRAME);
+    if (bar.value !== String(frame)) bar.value = String(frame);
     const words = `${time.toFixed(3)} of ${shot.duration.toFixed(3)} s`;
     if (bar.getAttribute('aria-valuetext') !== words) bar.setAttribute('aria-valuetext', words);
     say('when', words);
