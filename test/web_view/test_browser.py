@@ -183,7 +183,8 @@ def test_a_cold_start_says_that_it_compiles_and_a_shot_waits_visibly(
     named = ['--ros-args', '-r', '__node:=cold']
     with start_node(*named), web_view('--node', 'cold') as site:
         page = show(site.address)
-        page.wait("document.getElementById('notice').textContent.includes('about 15 s')")
+        page.wait("document.getElementById('notice').textContent.includes('about 20 s')")
+        assert page.text('notice').startswith('Compiling the physics')
         assert page.page.is_visible('#notice')
         page.page.click('[data-shot="3"]')
         page.wait("document.getElementById('notice').textContent.startsWith('Your shot waits')")

@@ -46,7 +46,7 @@ def test_a_stroke_with_spin_is_played_as_it_is_predicted(page):
     page.wait('page.state.real_time_factor === 0.5')
     page.record()
     page.page.click('#shoot')
-    page.wait('page.state.moving')
+    page.wait('page.strike.first !== null')  # from now on the page knows its clock
     page.page.select_option('#speed', '5')
     page.wait_for_result()
     expected = broken(**request)
@@ -113,6 +113,25 @@ def test_a_break_turns_the_balls_and_lists_what_falls(page, site, show):
     turns = np.array(late.get('page.strike.shot.turnsAt(0.5)'))
     alike = np.abs(np.sum(turns * expected.orientations(0.5), axis=1))
     assert alike.min() > np.cos(0.01 / 2), 'within 0.01 rad'
+
+
+def test_a_cue_ball_in_a_pocket_is_put_back_by_hand(page):
+    page.fill(**BREAK)
+    page.shoot()
+    assert broken(speed=9.0, azimuth=179.2).pocketed[0] >= 0
+    page.wait('!document.getElementById("notice").hidden')
+    assert 'The cue ball is in a pocket' in page.text('notice')
+    assert page.page.is_disabled('#shoot')
+    page.press('ArrowLeft')
+    assert page.get('page.aim.active') is False
+    page.get('scrollTo(0, 0)')
+    page.page.mouse.move(*page.pixel(*page.get('page.places.slice(0, 2)')))
+    page.page.mouse.down()
+    page.page.mouse.move(*page.pixel(1.5, 0.3), steps=5)
+    page.page.mouse.up()
+    page.wait('page.sunk && !page.sunk[0] && !document.getElementById("shoot").disabled')
+    assert page.get('page.places.slice(0, 2)') == pytest.approx([1.5, 0.3], abs=0.02)
+    page.wait('document.getElementById("notice").hidden')
 
 
 def test_the_shots_of_the_report_are_not_offered_here(page):

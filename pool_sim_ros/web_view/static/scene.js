@@ -57,21 +57,32 @@ function picture() {
   return { places: shot.places(time), turns: shot.turnsAt(time), sunk: shot.sunk(time), time, flashes };
 }
 
+// The balls as they are now: between two frames as the latest strike moves them, if that is known.
+function now() {
+  const { timeline, strike } = page;
+  const since = strike.since(timeline.time);
+  const { shot } = strike;
+  if (since > 0 && since < shot?.duration && strike.isIn(timeline.newest)) {
+    return { places: shot.places(since), turns: shot.turnsAt(since) ?? timeline.turns(), sunk: page.sunk && shot.sunk(since) };
+  }
+  return { places: timeline.places(), turns: timeline.turns(), sunk: timeline.sunk() };
+}
+
 function draw() {
   requestAnimationFrame(draw);
-  const now = seconds();
-  const elapsed = now - before;
-  before = now;
+  const clock = seconds();
+  const elapsed = clock - before;
+  before = clock;
   const { timeline, replay, strike, aim, hand } = page;
   if (!page.table || !timeline.newest) return;
-  timeline.advance(now);
-  const places = timeline.places();
+  timeline.advance(clock);
+  const { places, turns, sunk } = now();
   if (places.length !== 2 * page.table.balls.length) return;
   while (page.flashes.length && isOver(page.flashes[0], timeline.time)) page.flashes.shift();
   replay.advance(elapsed);
   const still = page.places?.length === places.length
     && places.every((place, i) => place === page.places[i]);
-  Object.assign(page, { places, turns: timeline.turns(), sunk: timeline.sunk() });
+  Object.assign(page, { places, turns, sunk });
   if (canStrike() === $('shoot').disabled) showStatus();
   if (!still || page.unfit) {
     page.unfit = false;

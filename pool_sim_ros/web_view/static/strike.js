@@ -2,6 +2,8 @@
 
 import { Trajectory } from './trajectory.js';
 
+const SAME = 1e-6; // m: two places that are one, but for rounding
+
 export class Strike {
   constructor() {
     this.take(null);
@@ -18,6 +20,7 @@ export class Strike {
   // `shot`: a Trajectory, or null where none is known.
   take(shot, table) {
     this.shot = shot;
+    this.compared = null;
     this.paths = shot?.paths() ?? null;
     this.exact = shot?.exact ? new Trajectory(shot.exact, table).paths() : null;
   }
@@ -36,6 +39,19 @@ export class Strike {
     if (this.start !== null) return time - this.start;
     const first = this.shot?.events[0];
     return first && this.first !== null ? time - this.first + first[0] : null;
+  }
+
+  // Whether the frame that came last is of this shot, so that the picture may show what lies between
+  // the frames exactly.
+  isIn({ stamp, places }) {
+    const time = this.shot && this.since(stamp);
+    if (!(time > 0)) return false;
+    if (this.compared !== places) {
+      this.compared = places;
+      const own = this.shot.places(time);
+      this.same = own.length === places.length && own.every((part, i) => Math.abs(part - places[i]) < SAME);
+    }
+    return this.same;
   }
 
   // Whether it is of this table: the balls lie where it began or ended; [x0, y0, ...] in m
