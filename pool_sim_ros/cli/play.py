@@ -11,6 +11,7 @@ import sys
 import time
 
 from pool_sim_ros.cli.child_process import end, start_module
+from pool_sim_ros.cli.open_page import has_window, is_served, open_page
 from pool_sim_ros.console import CommandError, Parser, console_command, require
 from pool_sim_ros.ros import check_environment
 
@@ -32,6 +33,11 @@ def _parser() -> argparse.ArgumentParser:
         default=8080,
         metavar='N',
         help='port of the page; 0 takes any that is free (default: %(default)s)',
+    )
+    parser.add_argument(
+        '--no-browser',
+        action='store_true',
+        help='open no browser; none is opened where there is no display, or with --port 0',
     )
     return parser
 
@@ -59,7 +65,11 @@ def main(args: list[str]) -> int:
     try:
         processes.append(start_module('cli.sim_node'))
         processes.append(start_module('web_view', '--host', HOST, '--port', str(options.port)))
+        opens = bool(options.port) and has_window() and not options.no_browser
         while not signals and all(process.poll() is None for process in processes):
+            if opens and is_served(HOST, options.port):
+                opens = False
+                open_page(options.port)
             time.sleep(NAP)
         return 0 if signals else 1
     finally:

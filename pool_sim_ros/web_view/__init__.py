@@ -12,6 +12,9 @@ pages       the pages that are open
 commands    what a page may say
 frames      ball poses, from the bytes of ROS to those of the page
 prediction  where the balls would go
+motion      a shot as fields for JSON
+strikes     the latest strike, computed anew
+exact       the exact result of a shot of the report
 static/     the page itself
 """
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from rcl_interfaces.msg import Parameter as ParameterMessage
-from rcl_interfaces.srv import SetParameters
+from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 
@@ -17,9 +17,16 @@ from pool_sim_ros.simulator import response_from_json
 from pool_sim_ros.web_view.poses import LatestPoses
 
 SET_PARAMETERS = interface.Service('set_parameters', SetParameters, 'set parameters of the node')
-"""A service that every node has."""
+GET_PARAMETERS = interface.Service('get_parameters', GetParameters, 'parameters of the node')
+"""Services that every node has."""
 
-SERVICES = (interface.RESET, interface.STEP, interface.SET_PAUSED, SET_PARAMETERS)
+SERVICES = (
+    interface.RESET,
+    interface.STEP,
+    interface.SET_PAUSED,
+    SET_PARAMETERS,
+    GET_PARAMETERS,
+)
 """The services that the pages use."""
 
 PATIENCE = 6.0
@@ -143,6 +150,13 @@ class Bridge:
         answer = await self._answer(SET_PARAMETERS, parameters=[parameter])
         (result,) = answer.results
         return result.successful, result.reason
+
+    async def number_parameter(self, name: str) -> float:
+        """Return a parameter of the simulator that is a number; raises as `call`."""
+        answer = await self._answer(GET_PARAMETERS, names=[name])
+        (value,) = answer.values
+        number: float = value.double_value
+        return number
 
     async def _answer(self, service: interface.Service, **fields: object) -> Any:
         client = self._clients[service]

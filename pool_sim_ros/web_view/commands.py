@@ -4,22 +4,30 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeGuard
 
-LONGEST = 1024
-"""Most characters of a command; the longest sensible one has about 100."""
+LONGEST = 2048
+"""Most characters of a command: one that places a whole rack has about 1000."""
 
-_FIELDS = {
-    'aim': 'velocity',
-    'strike': 'velocity',
-    'shot': 'number',
-    'pause': 'paused',
-    'speed': 'factor',
-    'step': None,
-    'reset': None,
+MOST_PLACED = 1000
+"""Most balls in one command."""
+
+_FIELDS: dict[str, tuple[tuple[str, ...], ...]] = {
+    'aim': (('velocity',), ('velocity', 'spin'), ('cue',)),
+    'strike': (('velocity',), ('velocity', 'spin'), ('cue',)),
+    'shot': (('number',),),
+    'pause': (('paused',),),
+    'speed': (('factor',),),
+    'place': (('places',),),
+    'undo': ((),),
+    'step': ((),),
+    'reset': ((),),
 }
-"""Name of a command -> the one field that goes with it."""
+"""Name of a command -> the fields that may go with it."""
+
+_CUE = ('speed', 'azimuth', 'elevation', 'side', 'above')
 
 
 @dataclass(frozen=True)
@@ -29,10 +37,11 @@ class Command:
     Attributes
     ----------
     name : str
-        aim (predict only), strike, shot, pause, speed, step or reset.
-    value : tuple, int, bool, float or None
-        aim, strike: (x, y) in m/s; shot: a report shot's number; pause: bool; speed: the real time
-        factor, 0 for as fast as possible; else None.
+        aim (predict only), strike, shot, pause, speed, place, undo, step or reset.
+    value : dict, int, bool, float or None
+        aim, strike: the fields that a request has, velocity and spin, or cue; shot: a report shot's
+        number; pause: bool; speed: the real time factor, 0 for as fast as possible; place: label to
+        [x, y] in m; else None.
     """
 
     name: str
@@ -60,17 +69,47 @@ def parse_command(text: str) -> Command:
     name = fields.get('do')
     if not isinstance(name, str) or name not in _FIELDS:
         raise ValueError(f'do must be one of {", ".join(_FIELDS)}')
-    field = _FIELDS[name]
-    wanted = {'do'} if field is None else {'do', field}
-    if set(fields) != wanted:
-        raise ValueError(f'{name} takes {field or "nothing"}, and nothing else')
-    return Command(name, None if field is None else _CHECKS[field](fields[field]))
+    given = set(fields) - {'do'}
+    if not any(given == set(wanted) for wanted in _FIELDS[name]):
+        takes = ', or '.join(' and '.join(wanted) or 'nothing' for wanted in _FIELDS[name])
+        raise ValueError(f'{name} takes {takes}, and nothing else')
+    values = {field: _CHECKS[field](fields[field]) for field in fields if field != 'do'}
+    if name in ('aim', 'strike'):
+        return Command(name, values)
+    return Command(name, *values.values())
 
 
-def _velocity(value: object) -> tuple[float, float]:
-    if isinstance(value, list) and len(value) == 2 and all(map(_is_finite, value)):
-        return float(value[0]), float(value[1])
-    raise ValueError('velocity must be two finite numbers, [x, y] in m/s')
+def _velocity(value: object) -> list[float]:
+    return _numbers(value, 2, 'velocity must be two finite numbers, [x, y] in m/s')
+
+
+def _spin(value: object) -> list[float]:
+    return _numbers(value, 3, 'spin must be three finite numbers, [x, y, z] in rad/s')
+
+
+def _cue(value: object) -> dict[str, float]:
+    if not isinstance(value, dict) or not {'speed', 'azimuth'} <= set(value) <= set(_CUE):
+        raise ValueError(
+            'cue must be an object with speed and azimuth; it may have the others of '
+            + ', '.join(_CUE)
+        )
+    for name, number in value.items():
+        if not _is_finite(number):
+            raise ValueError(f'cue: {name} must be a finite number')
+    return {name: float(number) for name, number in value.items()}
+
+
+def _places(value: object) -> dict[str, list[float]]:
+    if not isinstance(value, dict) or not 0 < len(value) <= MOST_PLACED:
+        raise ValueError('places must be an object, label to [x, y] in m')
+    wrong = 'places must be two finite numbers for each ball, [x, y] in m'
+    return {label: _numbers(place, 2, wrong) for label, place in value.items()}
+
+
+def _numbers(value: object, count: int, otherwise: str) -> list[float]:
+    if isinstance(value, list) and len(value) == count and all(map(_is_finite, value)):
+        return [float(number) for number in value]
+    raise ValueError(otherwise)
 
 
 def _number(value: object) -> int:
@@ -100,4 +139,12 @@ def _is_finite(value: object) -> TypeGuard[int | float]:
         return False
 
 
-_CHECKS = {'velocity': _velocity, 'number': _number, 'paused': _paused, 'factor': _factor}
+_CHECKS: dict[str, Callable[[object], Any]] = {
+    'velocity': _velocity,
+    'spin': _spin,
+    'cue': _cue,
+    'number': _number,
+    'paused': _paused,
+    'factor': _factor,
+    'places': _places,
+}

@@ -16,18 +16,21 @@ _POSE = 7
 """Numbers in a pose: position x, y, z and orientation x, y, z, w."""
 
 
-def page_frame(message: bytes) -> bytes:
+def page_frame(message: bytes, *, whole: bool = False) -> bytes:
     """Return what a page is sent for one message of `~/ball_poses`.
 
     Parameters
     ----------
     message : bytes
         A serialised geometry_msgs/PoseArray (CDR, either byte order).
+    whole : bool, optional
+        Whether balls turn and fall into pockets.
 
     Returns
     -------
     bytes
-        Little-endian float64: the stamp in s, then x, y of each ball in m.
+        Little-endian float64: the stamp in s, then of each ball x, y in m or, if it is `whole`,
+        x, y, z in m and its orientation x, y, z, w.
 
     Raises
     ------
@@ -43,22 +46,23 @@ def page_frame(message: bytes) -> bytes:
         numbers = np.frombuffer(message, f'{order}f8', count * _POSE, place)
     except (IndexError, struct.error, ValueError) as error:
         raise ValueError(f'these are not the bytes of a PoseArray: {error}') from error
-    frame = np.empty(1 + 2 * count, dtype='<f8')
+    columns = _POSE if whole else 2
+    frame = np.empty(1 + columns * count, dtype='<f8')
     frame[0] = seconds + nanoseconds * 1e-9
-    frame[1:].reshape(count, 2)[:] = numbers.reshape(count, _POSE)[:, :2]
+    frame[1:].reshape(count, columns)[:] = numbers.reshape(count, _POSE)[:, :columns]
     if not np.isfinite(frame).all():
         raise ValueError('ball_poses: a position is not finite')
     return frame.tobytes()
 
 
-def frame_positions(frame: bytes) -> np.ndarray:
+def frame_positions(frame: bytes, *, whole: bool = False) -> np.ndarray:
     """Return the (n, 2) positions in m of a frame that `page_frame` made."""
-    return np.frombuffer(frame, '<f8', offset=8).reshape(-1, 2)
+    return np.frombuffer(frame, '<f8', offset=8).reshape(-1, _POSE if whole else 2)[:, :2]
 
 
-def check_count(frame: bytes, balls: int) -> None:
+def check_count(frame: bytes, balls: int, *, whole: bool = False) -> None:
     """Raise ValueError where a frame that `page_frame` made has another number of balls."""
-    count = len(frame_positions(frame))
+    count = len(frame_positions(frame, whole=whole))
     if count != balls:
         raise ValueError(f'ball_poses: {count} balls, where the table has {balls}')
 

@@ -6,9 +6,10 @@ import asyncio
 from collections.abc import Coroutine
 from typing import Any
 
+import numpy as np
 from rclpy.context import Context
 
-from pool_sim_ros.me212 import published_final_positions
+from pool_sim_ros.me212 import is_report_table, published_final_positions
 from pool_sim_ros.physics import Table, compile_kernels, table_to_fields
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.simulator import (
@@ -27,6 +28,7 @@ from pool_sim_ros.web_view.frames import (
 )
 from pool_sim_ros.web_view.pages import Page, Pages, message
 from pool_sim_ros.web_view.prediction import predict
+from pool_sim_ros.web_view.strikes import Strikes
 
 SILENCE = 4
 """The simulator is gone after so many looks, one a second, without a `~/state`, which comes every
@@ -58,6 +60,9 @@ class View:
         self._compiled = False
         self._state: dict[str, Any] | None = None
         self._frame: bytes | None = None
+        self._early: bytes | None = None
+        self._struck: str | None = None
+        self._strikes = Strikes(self._tell_strike, self._time_slice)
         self._printed = published_final_positions()
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
@@ -93,9 +98,13 @@ class View:
         if command.name == 'aim':
             page.tell(message('prediction', await self._predict(command.value)))
         elif command.name == 'strike':
-            await self._bridge.request(velocity=command.value)
+            await self._bridge.request(**command.value)
         elif command.name == 'shot':
             await self._bridge.request(shot=command.value)
+        elif command.name == 'place':
+            await self._bridge.request(place=command.value)
+        elif command.name == 'undo':
+            await self._undo()
         else:
             succeeded, words = await self._call(command)
             if not succeeded:
@@ -109,19 +118,35 @@ class View:
         service = interface.STEP if command.name == 'step' else interface.RESET
         return await self._bridge.call(service)
 
-    async def _predict(self, velocity: tuple[float, float]) -> dict[str, object] | None:
-        """Return the paths, or None if there is nothing to predict from."""
+    async def _predict(self, strike: dict[str, Any]) -> dict[str, object] | None:
+        """Return what a strike would do, or None if there is nothing to predict from."""
         table, frame, state = self._table, self._frame, self._state
         if table is None or frame is None or not self._compiled:
             return None
-        if state is None or state['moving']:
+        if state is None or state['moving'] or 'velocity' in strike and not any(strike['velocity']):
             return None
-        positions = frame_positions(frame)
-        if len(positions) != len(table.balls) or not any(velocity):
-            return None
+        positions = frame_positions(frame, whole=self._turns)
         # Not in the loop: on a table with many balls it takes longer than a frame.
-        paths = await asyncio.to_thread(predict, table, positions, velocity)
-        return {'velocity': velocity, **paths}
+        return await asyncio.to_thread(predict, table, positions, strike)
+
+    async def _undo(self) -> None:
+        """Put the balls back to where they were before the latest strike."""
+        start, frame, table = self._strikes.start, self._frame, self._table
+        if start is None or frame is None or table is None:
+            raise ValueError('there is no strike to undo')
+        now = frame_positions(frame, whole=self._turns)
+        moved = {
+            label: before.tolist()
+            for label, before, place in zip(table.labels, start, now, strict=True)
+            if not np.array_equal(before, place)
+        }
+        if moved:
+            await self._bridge.request(place=moved)
+
+    @property
+    def _turns(self) -> bool:
+        """Whether balls turn and fall into pockets on this table."""
+        return self._table is not None and self._table.motion == 'ball'
 
     def on_collisions(self, collisions: Any) -> None:
         """Show the collisions; see `bridge.Listener`."""
@@ -136,13 +161,44 @@ class View:
     def on_response(self, response: Any) -> None:
         """Show the response to a request, beside what the report printed."""
         content = response_from_json(response.data)
-        done = content['phase'] == Phase.DONE
+        if self._is_repeated(content):
+            return
+        done = content['phase'] == Phase.DONE and content['velocity'] is not None
+        self._follow(content, done)
         printed = self._printed.get(content['shot']) if done and content['as_printed'] else None
         if printed is not None and not printed.keys() >= content['final_positions_in'].keys():
             raise ValueError('a response as printed has other balls than the print')
         self.pages.tell('response', {**content, 'printed': printed})
         if done:
             self.pages.tell('result', {**content, 'printed': printed}, keep=True)
+
+    def _is_repeated(self, content: dict[str, Any]) -> bool:
+        """Return whether a request was sent again, so that this is no news."""
+        phase, request_id = content['phase'], content['id']
+        if content['velocity'] is None or phase == Phase.REJECTED:
+            return False
+        if phase == Phase.ACCEPTED:
+            before, self._struck = self._struck, request_id
+            return bool(before == request_id)
+        return self._struck not in (None, request_id)
+
+    def _follow(self, content: dict[str, Any], done: bool) -> None:
+        """Keep the latest strike."""
+        if self._table is None:
+            return
+        if content['phase'] == Phase.ACCEPTED and content['velocity'] is not None:
+            self.pages.forget('result')
+            self._run(self._strikes.accepted(self._table, content))
+        elif content['phase'] == Phase.PREEMPTED:
+            self._strikes.forget()
+        elif done:
+            self._strikes.done(self._table, content)
+
+    def _tell_strike(self, fields: dict[str, Any] | None) -> None:
+        self.pages.tell('strike', fields, keep=True)
+
+    async def _time_slice(self) -> float:
+        return await self._bridge.number_parameter('time_slice')
 
     def on_state(self, state: Any) -> None:
         """Show what goes on."""
@@ -161,7 +217,14 @@ class View:
     def on_table(self, table: Any) -> None:
         """Show the table."""
         self._table = table_from_json(table.data)
-        self.pages.tell('table', table_to_fields(self._table), keep=True)
+        self._frame = None
+        self.pages.forget('result')
+        self._strikes.forget()
+        fields = {**table_to_fields(self._table), 'is_report': is_report_table(self._table)}
+        self.pages.tell('table', fields, keep=True)
+        early, self._early = self._early, None
+        if early is not None:
+            self._show_poses(early)
         self._run(self._compile(self._table))
 
     async def _compile(self, table: Table) -> None:
@@ -180,25 +243,37 @@ class View:
     def _look_for_frame(self) -> None:
         self._look = self._loop.call_later(FRAME_PERIOD, self._look_for_frame)
         poses = self._bridge.latest_poses()
-        if poses is None:
-            return
+        if poses is not None:
+            self._show_poses(poses)
+
+    def _show_poses(self, poses: bytes) -> None:
+        table, whole = self._table, self._turns
         try:
-            frame = page_frame(poses)
-            if self._table is not None:
-                check_count(frame, len(self._table.balls))
+            frame = page_frame(poses, whole=whole)
+            if table is not None:
+                check_count(frame, len(table.balls), whole=whole)
         except ValueError as error:
             self._bridge.left_out(error)
-        else:
-            self._frame = frame
-            self.pages.show(frame)
+            return
+        if table is None:
+            self._early = poses
+            return
+        state, before = self._state, self._frame
+        still = before is not None and before[8:] == frame[8:]
+        resting = state is not None and not state['moving'] and not state['computing']
+        if still or resting:
+            self._strikes.resting(frame_positions(frame, whole=whole))
+        self._frame = frame
+        self.pages.show(frame)
 
     def _miss(self, looks: int) -> None:
         if looks < SILENCE:
             self._silence = self._loop.call_later(1.0, self._miss, looks + 1)
             return
-        self._state = self._frame = None
+        self._state = self._frame = self._struck = None
         self.pages.forget('state')
         self.pages.forget('result')
+        self._strikes.forget()
         self.pages.show(None)
         self._tell_whether_there()
 

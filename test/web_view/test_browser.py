@@ -1,7 +1,6 @@
 """The page in a real browser: Chromium, without a window."""
 
 import os
-import time
 
 import chromium  # first: it skips all of this where there is no browser
 import numpy as np
@@ -9,111 +8,20 @@ import pytest
 
 pytest.importorskip('aiohttp', reason='pip install aiohttp')
 
+from browser_page import DESKTOP, PHONE  # noqa: E402
 from paths import distance_to_way  # noqa: E402
 from process_harness import start_node  # noqa: E402
 from site_harness import simulator, web_view  # noqa: E402
-from waiting import PATIENCE  # noqa: E402
 
 from pool_sim_ros.physics import report_table  # noqa: E402
 
 TABLE = report_table()
-DESKTOP = {'width': 1280, 'height': 800}
-PHONE = {'width': 390, 'height': 844}
-
-
-class Page:
-    """A page that is open in the browser."""
-
-    def __init__(self, page):
-        self.page = page
-        self.errors = []
-        page.on('pageerror', lambda error: self.errors.append(str(error)))
-
-    def get(self, script):
-        return self.page.evaluate(script)
-
-    def wait(self, script):
-        """Wait until an expression is true."""
-        end = time.monotonic() + PATIENCE
-        while not self.get(f'Boolean({script})'):
-            assert time.monotonic() < end, f'waited {PATIENCE:g} s for {script}'
-            self.page.wait_for_timeout(10)
-
-    def text(self, element):
-        return self.page.inner_text(f'#{element}')
-
-    def press(self, *keys):
-        for key in keys:
-            self.page.keyboard.press(key)
-
-    def wait_for_rest(self):
-        self.wait('page.state && page.places && !page.state.moving && !page.state.computing')
-
-    def start_over(self):
-        """Put the balls back, and wait until the page shows it."""
-        self.wait_for_rest()
-        self.page.click('#reset')
-        start = TABLE.positions.ravel().tolist()
-        self.wait(f'page.places.every((place, i) => place === {start}[i])')
-
-    def pixel(self, x, y):
-        """Return where a place on the table is in the window."""
-        box = self.page.locator('#table').bounding_box()
-        sx, sy = self.get(f'page.painter.geometry.toScreen({x}, {y})')
-        return box['x'] + sx, box['y'] + sy
-
-    def drag(self, x, y):
-        """Drag back from the cue ball by x, y in m; stay there until this is predicted."""
-        ball = self.get('page.places.slice(0, 2)')
-        self.page.mouse.move(*self.pixel(*ball))
-        self.page.mouse.down()
-        self.page.mouse.move(*self.pixel(ball[0] + x, ball[1] + y), steps=5)
-        self.wait(
-            'page.prediction && page.prediction.velocity[0] === page.aim.velocity[0]'
-            ' && page.prediction.velocity[1] === page.aim.velocity[1]'
-        )
-        return self.get('page.prediction')
-
-    def record(self):
-        """Keep what is drawn from now on, frame by frame."""
-        self.get("""() => {
-          page.record = [];
-          const look = () => {
-            if (page.record.at(-1) !== page.places) page.record.push(page.places);
-            requestAnimationFrame(look);
-          };
-          look();
-        }""")
-
-
-@pytest.fixture(scope='module')
-def browser():
-    with chromium.open_browser() as browser:
-        yield browser
 
 
 @pytest.fixture(scope='module')
 def site(domain):
     with simulator('--ros-args', '-r', '__node:=seen'), web_view('--node', 'seen') as site:
         yield site
-
-
-@pytest.fixture
-def show(browser):
-    """Open pages; fails where one of them had an error."""
-    contexts, pages = [], []
-
-    def open_page(address, size=DESKTOP, **options):
-        contexts.append(browser.new_context(viewport=size, **options))
-        pages.append(Page(contexts[-1].new_page()))
-        pages[-1].page.goto(address)
-        return pages[-1]
-
-    yield open_page
-    errors = [error for page in pages for error in page.errors]
-    for context in contexts:
-        context.close()
-    assert errors == []
 
 
 def test_a_drag_makes_a_shot_and_the_path_played_is_the_path_predicted(site, show):
@@ -201,14 +109,18 @@ def test_the_keys_alone_do_everything(site, show):
     page.wait('page.state.moving')
     page.press('r')
     page.wait_for_rest()
+    page.press('3')
+    page.wait_for_result()
     page.page.locator('h1').click()
     reached = set()
-    for _ in range(20):
+    for _ in range(45):
         page.press('Tab')
         reached.add(page.get('document.activeElement.id || document.activeElement.dataset.shot'))
         if page.get('document.activeElement !== document.body'):
             assert page.get('getComputedStyle(document.activeElement).outlineStyle') != 'none'
-    wanted = {'table', 'direction', 'strength', 'shoot', '1', '4', 'pause', 'reset', 'speed'}
+    wanted = {'table', 'direction', 'strength', 'vx', 'vy', 'fine', 'shoot', '1', '4', 'pause'}
+    wanted |= {'replay', 'back', 'bar', 'forward', 'replay-speed', 'undo', 'reset', 'link', 'speed'}
+    wanted |= {'ball', 'place-x', 'place-y', 'place', 'take', 'axes', 'units', 'contacts'}
     assert wanted <= reached
 
 
@@ -271,7 +183,8 @@ def test_a_cold_start_says_that_it_compiles_and_a_shot_waits_visibly(
     named = ['--ros-args', '-r', '__node:=cold']
     with start_node(*named), web_view('--node', 'cold') as site:
         page = show(site.address)
-        page.wait("document.getElementById('notice').textContent.includes('about 15 s')")
+        page.wait("document.getElementById('notice').textContent.includes('about 20 s')")
+        assert page.text('notice').startswith('Compiling the physics')
         assert page.page.is_visible('#notice')
         page.page.click('[data-shot="3"]')
         page.wait("document.getElementById('notice').textContent.startsWith('Your shot waits')")

@@ -1,42 +1,50 @@
-"""The paths that are drawn while somebody aims."""
+"""What is drawn while somebody aims."""
 
 import json
 
 import numpy as np
 import pytest
-from paths import distance_to_way
+from spin_tables import spin_table
 
-from pool_sim_ros.physics import report_table, simulate
+from pool_sim_ros.physics import cue_strike, report_table, simulate
 from pool_sim_ros.web_view.prediction import predict
 
 TABLE = report_table()
-
-
-@pytest.mark.parametrize('velocity', [(-4.0, 0.0), (-2.4, 0.7), (3.0, -1.0), (-9.0, 1.3)])
-def test_every_ball_that_moves_keeps_to_its_path(velocity):
-    shot = simulate(TABLE, velocity)
-    paths = {
-        path['ball']: path['points'] for path in predict(TABLE, TABLE.positions, velocity)['paths']
-    }
-    for ball, places in enumerate(
-        shot.positions(np.linspace(0.0, shot.duration, 500)).transpose(1, 0, 2)
-    ):
-        if ball in paths:
-            assert np.array_equal(paths[ball][0], TABLE.positions[ball])
-            assert np.array_equal(paths[ball][-1], shot.final_positions[ball])
-            assert max(distance_to_way(paths[ball], place) for place in places) < 1e-9
-        else:
-            assert np.array_equal(places, np.tile(TABLE.positions[ball], (500, 1)))
+SPIN = spin_table([(1.0, 0.5), (0.5, 0.5)])
 
 
 def test_it_starts_where_the_balls_are_and_is_json():
     places = TABLE.positions + 0.01
-    prediction = predict(TABLE, places, (-1.0, 0.0))
-    assert prediction['paths'][0]['ball'] == 0
-    assert prediction['paths'][0]['points'][0] == places[0].tolist()
+    prediction = predict(TABLE, places, {'velocity': [-1.0, 0.0]})
+    assert prediction['start'] == places.tolist()
+    assert prediction['segments'][0][:4] == [0.0, 0.0, *places[0]]
+    assert prediction['asked'] == {'velocity': [-1.0, 0.0]}
     assert json.loads(json.dumps(prediction)) == prediction
 
 
-def test_balls_that_cannot_lie_there_are_refused():
-    with pytest.raises(ValueError, match='overlap'):
-        predict(TABLE, np.tile([1.0, 0.5], (11, 1)), (1.0, 0.0))
+def test_a_cue_gives_what_cue_strike_gives():
+    cue = {'speed': 2.0, 'azimuth': 179.94, 'side': 0.2, 'above': -0.3}
+    velocity, spin = cue_strike(SPIN, **cue)
+    prediction = predict(SPIN, SPIN.positions, {'cue': cue})
+    shot = simulate(SPIN, velocity, spins=spin)
+    assert prediction['velocity'] == velocity.tolist() and prediction['spin'] == spin.tolist()
+    assert prediction['ends'] == shot.final_positions.tolist()
+
+
+def test_a_spin_is_used():
+    struck = {'velocity': [-2.0, 0.0], 'spin': [0.0, 60.0, 20.0]}
+    shot = simulate(SPIN, struck['velocity'], spins=struck['spin'])
+    assert predict(SPIN, SPIN.positions, struck)['ends'] == shot.final_positions.tolist()
+
+
+@pytest.mark.parametrize(
+    ('table', 'positions', 'strike', 'words'),
+    [
+        (TABLE, np.tile([1.0, 0.5], (11, 1)), {'velocity': [1.0, 0.0]}, 'overlap'),
+        (TABLE, TABLE.positions, {'cue': {'speed': 1.0, 'azimuth': 0.0}}, 'discs'),
+        (SPIN, SPIN.positions, {'cue': {'speed': 1.0, 'azimuth': 0.0, 'side': 0.6}}, 'miscue|side'),
+    ],
+)
+def test_what_cannot_be_struck_is_refused(table, positions, strike, words):
+    with pytest.raises(ValueError, match=words):
+        predict(table, positions, strike)

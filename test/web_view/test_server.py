@@ -181,7 +181,7 @@ def test_two_pages_see_a_shot_and_its_prediction_comes_true(played):
     shot = simulate(TABLE, velocity)
     assert np.array_equal(rest, shot.final_positions)
     assert len(collisions) == np.count_nonzero(shot.events['kind'] < 2)
-    ends = {path['ball']: path['points'][-1] for path in prediction['paths']}
+    ends = {int(row[0]): prediction['ends'][int(row[0])] for row in prediction['segments']}
     assert prediction['velocity'] == list(velocity) and 0 in ends
     for ball, end in ends.items():
         assert end == list(done['final_positions'][TABLE.labels[ball]])

@@ -11,7 +11,7 @@ from rclpy.serialization import serialize_message
 from waiting import PATIENCE
 
 from pool_sim_ros.me212 import published_final_positions
-from pool_sim_ros.physics import compile_kernels, report_table
+from pool_sim_ros.physics import compile_kernels, report_table, simulate
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.simulator import Phase, Response, table_to_json
 from pool_sim_ros.web_view import view as module
@@ -151,7 +151,8 @@ def test_a_simulator_is_there_once_it_hears_too():
     ('wish', 'asked'),
     [
         ({'do': 'shot', 'number': 3}, {'shot': 3}),
-        ({'do': 'strike', 'velocity': [-4.0, 0.5]}, {'velocity': (-4.0, 0.5)}),
+        ({'do': 'strike', 'velocity': [-4.0, 0.5]}, {'velocity': [-4.0, 0.5]}),
+        ({'do': 'place', 'places': {'9': [1.0, 0.5]}}, {'place': {'9': [1.0, 0.5]}}),
         ({'do': 'pause', 'paused': True}, (interface.SET_PAUSED.name, {'data': True})),
         ({'do': 'step'}, (interface.STEP.name, {})),
         ({'do': 'reset'}, (interface.RESET.name, {})),
@@ -362,7 +363,7 @@ def test_who_aims_is_told_the_paths():
 
     heard, asked = on_site(use)
     prediction, nothing = heard['prediction']
-    assert prediction['velocity'] == [-4.0, 0.0] and prediction['paths'][0]['ball'] == 0
+    assert prediction['velocity'] == [-4.0, 0.0] and prediction['segments'][0][:2] == [0.0, 0.0]
     assert nothing is None and asked == []
 
 
@@ -373,6 +374,122 @@ def test_while_balls_move_there_is_nothing_to_predict_from():
         return (await site.heard())['prediction']
 
     assert on_site(use) == [None]
+
+
+ACCEPTED = {'phase': 'accepted', 'shot': None, 'as_printed': None, 'integrator': 'event'}
+
+
+def played(velocity):
+    """Return what changes in a response where a shot from the start layout is done."""
+    ends = simulate(TABLE, velocity).final_positions.tolist()
+    final = dict(zip(TABLE.labels, ends, strict=True))
+    return {'shot': None, 'as_printed': None, 'integrator': 'event', 'final_positions': final}
+
+
+async def heard_strike(site):
+    heard = {}
+    while 'strike' not in heard:
+        heard |= await site.heard()
+    return heard['strike'][-1]
+
+
+def test_what_was_struck_is_shown_at_once_and_to_late_pages():
+    async def use(site):
+        await with_everything(site)
+        site.respond(**ACCEPTED)
+        strike = await heard_strike(site)
+        site.respond(**played((-4.0, 0.0)))
+        late = await site.heard(site.view.pages.open())
+        return strike, late
+
+    strike, late = on_site(use)
+    shot = simulate(TABLE, (-4.0, 0.0))
+    assert strike['start'] == TABLE.positions.tolist()
+    assert strike['ends'] == shot.final_positions.tolist()
+    assert late['strike'] == [strike] and late['result'][0]['id'] == strike['id']
+
+
+def test_a_strike_is_withdrawn_where_the_balls_end_elsewhere():
+    async def use(site):
+        await with_everything(site)
+        site.respond(**ACCEPTED)
+        await heard_strike(site)
+        site.respond(**played((-4.0, 0.1)))
+        return await heard_strike(site)
+
+    assert on_site(use) is None
+
+
+@pytest.mark.parametrize('phase', ['accepted', 'done', 'preempted'])
+def test_an_answer_to_a_request_that_was_sent_again_changes_nothing(phase):
+    async def use(site):
+        await with_everything(site)
+        site.respond(**ACCEPTED)
+        strike = await heard_strike(site)
+        again = played((-4.0, 0.0)) | {'phase': phase, 'reason': 'x'}
+        site.respond(**again, id='x' if phase == 'accepted' else 'an earlier one')
+        heard = await site.heard()
+        return strike, heard, await site.heard(site.view.pages.open())
+
+    strike, heard, late = on_site(use)
+    assert not {'strike', 'response', 'result'} & set(heard)
+    assert late['strike'] == [strike] and 'result' not in late
+
+
+def test_undo_puts_back_what_the_strike_moved():
+    async def use(site):
+        await with_everything(site)
+        await site.obey(do='undo')
+        site.respond(**ACCEPTED)
+        await heard_strike(site)
+        places = TABLE.positions + [0.0, 0.01] * (np.arange(11) == 9)[:, np.newaxis]
+        poses = to_poses('table', 2_000_000_000, places, TABLE.radii.tolist())
+        site.bridge.poses = serialize_message(poses)
+        while 'frame' not in await site.heard():
+            pass
+        await site.obey(do='undo')
+        return site.bridge.asked, await site.heard()
+
+    asked, heard = on_site(use)
+    assert asked == [{'place': {'9': TABLE.positions[9].tolist()}}]
+    assert 'problem' not in heard
+
+
+def test_there_is_nothing_to_undo_before_a_strike():
+    async def use(site):
+        await with_everything(site)
+        await site.obey(do='undo')
+        return site.bridge.asked, (await site.heard())['problem']
+
+    assert on_site(use) == ([], ['there is no strike to undo'])
+
+
+def test_a_new_table_takes_strike_and_result_away():
+    async def use(site):
+        await with_everything(site)
+        site.respond(**ACCEPTED)
+        await heard_strike(site)
+        site.respond(**played((-4.0, 0.0)))
+        site.view.on_table(messages.to_string(table_to_json(TABLE)))
+        return await site.heard(site.view.pages.open())
+
+    late = on_site(use)
+    assert 'result' not in late and late['strike'] == [None]
+
+
+def test_poses_that_come_before_the_table_are_shown_with_it():
+    async def use(site):
+        poses = to_poses('table', 1_500_000_000, TABLE.positions, TABLE.radii.tolist())
+        site.bridge.poses = serialize_message(poses)
+        while site.bridge.poses is not None:
+            await asyncio.sleep(0.005)
+        before = await site.heard()
+        site.view.on_table(messages.to_string(table_to_json(TABLE)))
+        return before, await site.heard()
+
+    before, after = on_site(use)
+    assert 'frame' not in before
+    assert np.array_equal(after['frame'][0][1:], TABLE.positions.ravel())
 
 
 def test_pages_are_told_while_the_physics_is_compiled(monkeypatch):

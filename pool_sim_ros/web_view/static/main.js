@@ -1,52 +1,167 @@
-// The page: what arrives from the server, what the user does, and one picture per frame.
+// The parts of the page, and what they tell one another.
 
+import { followLink, listenToButtons, play, send } from './actions.js';
 import { Aim } from './aim.js';
+import { AimForm } from './aim_form.js';
 import { Connection } from './connection.js';
-import { Painter, isOver } from './painter.js';
-import {
-  $, addCollisions, say, showNotice, showProblem, showReadings, showResult, showState,
-} from './panel.js';
-import { Timeline } from './timeline.js';
+import { Hand } from './hand.js';
+import { listenToKeys } from './keys.js';
+import { canPlay, canStrike, page, spins } from './page.js';
+import { $, announce, resultWords, say } from './panel.js';
+import { Replay } from './replay.js';
+import { layOut, start } from './scene.js';
+import { advise, showStatus, watchComputing } from './status.js';
+import { Trajectory } from './trajectory.js';
 
-const ADVICE_TIME = 6000; // ms
-const COMPUTE_TIME = 1000; // ms; a compiled shot takes less
-const seconds = () => performance.now() / 1000;
+const POSE = 7; // numbers of a ball that turns: x, y, z and a quaternion
 
-const canvas = $('table');
-const painter = new Painter(canvas);
-const timeline = new Timeline();
+const { canvas, painter, timeline, units } = page;
+let asked = null; // what a prediction was asked for and has not come, as JSON
 
-// What is known now. Tests look at it too.
-const page = {
-  connected: false, simulator: null, state: null, table: null, places: null,
-  flashes: [], prediction: null, struck: null, played: null, drawn: 0, painter, timeline,
-  compiling: false, waits: false,
-};
-window.page = page;
-
-const canPlay = () => Boolean(page.connected && page.state && page.table && page.places)
-  && !page.state.moving && !page.state.computing;
-
-const aim = new Aim({
+// Before the aim: who takes a ball in hand does not aim.
+const hand = page.hand = new Hand({
+  canvas,
+  geometry: () => painter.geometry,
+  table: () => page.table,
+  places: () => (canPlay() ? page.places : null),
+  sunk: () => page.sunk,
+  units,
+  advise,
+  onPlace: (ball, x, y) => send({ do: 'place', places: { [page.table.balls[ball].label]: [x, y] } }),
+  onChange() {
+    replay.live();
+    page.dirty = true;
+  },
+});
+const aim = page.aim = new Aim({
   canvas,
   geometry: () => painter.geometry,
   radius: () => page.table.balls[0].radius,
-  place: () => (canPlay() ? [page.places[0], page.places[1]] : null),
-  onChange: () => { showAim(); askForPrediction(); page.dirty = true; },
-  onShoot: (velocity) => {
-    page.struck = velocity;
-    page.played = null;
-    if (sameVelocity(page.prediction, velocity)) page.played = page.prediction;
-    else send({ do: 'aim', velocity });
-    send({ do: 'strike', velocity });
+  place: () => (canStrike() ? [page.places[0], page.places[1]] : null),
+  spins,
+  onChange() {
+    if (aim.active) {
+      replay.live();
+      announce('aim', `Aim ${aim.readout}`);
+    }
+    form.show();
+    askForPrediction();
+    page.dirty = true;
   },
+  onShoot: (request) => send({ do: 'strike', ...request }),
 });
-page.aim = aim;
+const replay = page.replay = new Replay({
+  shot: () => page.strike.shot,
+  live: () => page.strike.since(timeline.time),
+  onChange() {
+    if (replay.time !== null && aim.active) aim.cancel();
+    page.dirty = true;
+  },
+  onUndo: () => play.undo(),
+});
+const form = page.form = new AimForm(aim, () => (aim.active ? page.prediction : null));
 
-const sameVelocity = (prediction, velocity) => Boolean(prediction)
-  && prediction.velocity[0] === velocity[0] && prediction.velocity[1] === velocity[1];
+const heard = {
+  simulator(simulator) {
+    page.simulator = simulator;
+    if (simulator.problem) {
+      page.state = page.result = null;
+      page.unfit = true;
+      timeline.clear();
+    }
+    showStatus();
+  },
+  state(state) {
+    page.state = state;
+    page.unfit = true;
+    watchComputing();
+    if (state.moving || state.computing) replay.live();
+    if (!canPlay() && aim.active) aim.cancel();
+    if (!canPlay() && hand.held) hand.letGo();
+    if (!page.prediction) askForPrediction(); // there was nothing to predict from before
+    showStatus();
+  },
+  table(table) {
+    page.table = table;
+    page.result = page.prediction = null;
+    timeline.clear();
+    $('shots').hidden = !table.is_report;
+    $('english').hidden = $('pocket-reading').hidden = !spins();
+    $('ball').replaceChildren(...table.balls.map(({ label }, i) => new Option(label, String(i))));
+    layOut();
+  },
+  collisions(rows) {
+    const { balls } = page.table;
+    page.strike.contact(rows[0]?.[1]);
+    for (const [, t, kind, a, b, x, y, nx, ny, speed] of rows) {
+      page.flashes.push({ stamp: t, x, y, speed });
+      timeline.addCorner(a, t, x - nx * balls[a].radius, y - ny * balls[a].radius);
+      if (kind === 0) timeline.addCorner(b, t, x + nx * balls[b].radius, y + ny * balls[b].radius);
+    }
+  },
+  response({ phase, code, reason, velocity }) {
+    if (phase === 'rejected' || (phase === 'preempted' && code !== 'RESET')) advise(`${phase}: ${reason}`);
+    if (phase !== 'accepted' || !velocity) return; // what is placed is no shot
+    page.strike.begin();
+    page.result = null;
+    page.unfit = true;
+    replay.live();
+  },
+  strike(fields) {
+    page.strike.take(fields && new Trajectory(fields, page.table, spins() ? page.turns : null), page.table);
+    if (page.result) page.strike.finish(page.result);
+    page.dirty = page.unfit = true;
+    replay.live();
+    say('reason', fields?.exact?.reason ?? '');
+  },
+  result(result) {
+    page.result = result;
+    page.strike.finish(result);
+    page.dirty = page.unfit = true;
+    if (page.words) announce('result', resultWords(result, page.table, page.words));
+  },
+  problem(text) {
+    asked = null;
+    advise(text);
+  },
+  predicts: () => askForPrediction(), // from now on
+  compiling(compiling) {
+    page.compiling = compiling;
+    showStatus();
+  },
+  prediction(prediction) {
+    const answered = asked === JSON.stringify(aim.request);
+    asked = null;
+    page.prediction = prediction && { ...prediction, paths: new Trajectory(prediction, page.table).paths() };
+    page.dirty = true;
+    form.show();
+    if (aim.active && !answered) askForPrediction();
+  },
+};
 
-const connection = new Connection({
+function askForPrediction() {
+  if (!aim.active || asked || !page.connected) return;
+  asked = JSON.stringify(aim.request);
+  page.connection.send({ do: 'aim', ...aim.request });
+}
+
+function onFrame(numbers) {
+  const now = performance.now() / 1000;
+  if (!spins()) {
+    timeline.add(numbers[0], Array.from(numbers.subarray(1)), now);
+  } else {
+    const [places, turns, sunk] = [[], [], []];
+    for (let at = 1; at < numbers.length; at += POSE) {
+      places.push(numbers[at], numbers[at + 1]);
+      turns.push(Array.from(numbers.subarray(at + 3, at + POSE)));
+      sunk.push(numbers[at + 2] < 0);
+    }
+    timeline.add(numbers[0], places, now, turns, sunk);
+  }
+  followLink();
+}
+
+page.connection = new Connection({
   onOpen(open) {
     page.connected = open;
     asked = null;
@@ -55,216 +170,15 @@ const connection = new Connection({
       page.compiling = false;
       timeline.clear();
     }
-    showLink();
+    showStatus();
   },
-  onFrame(numbers) {
-    timeline.add(numbers[0], Array.from(numbers.subarray(1)), seconds());
-  },
+  onFrame,
   onText(kind, content) {
     heard[kind]?.(content);
   },
 });
 
-const heard = {
-  simulator(simulator) {
-    page.simulator = simulator;
-    if (simulator.problem) {
-      page.state = null;
-      timeline.clear();
-      showResult(null);
-    }
-    showLink();
-  },
-  state(state) {
-    const rested = page.state?.moving && !state.moving;
-    page.state = state;
-    watchComputing();
-    if (rested) page.played = page.struck = page.prediction = null;
-    if (!canPlay() && aim.active) aim.cancel();
-    if (!page.prediction) askForPrediction(); // there was nothing to predict from before
-    showLink();
-  },
-  table(table) {
-    page.table = table;
-    layOut();
-  },
-  collisions(rows) {
-    for (const [, t, kind, a, b, x, y, nx, ny, speed] of rows) {
-      page.flashes.push({ stamp: t, x, y, speed });
-      const { balls } = page.table;
-      timeline.addCorner(a, t, x - nx * balls[a].radius, y - ny * balls[a].radius);
-      if (kind === 0) timeline.addCorner(b, t, x + nx * balls[b].radius, y + ny * balls[b].radius);
-    }
-    addCollisions(rows, page.table.balls);
-  },
-  response({ phase, code, reason }) {
-    if (phase === 'rejected' || (phase === 'preempted' && code !== 'RESET')) advise(`${phase}: ${reason}`);
-    if (phase === 'preempted') page.played = null;
-  },
-  result: (result) => showResult(result, page.table?.balls),
-  problem: advise,
-  predicts: askForPrediction, // from now on
-  compiling(compiling) {
-    page.compiling = compiling;
-    showLink();
-  },
-  prediction(prediction) {
-    const answered = asked && sameVelocity({ velocity: asked }, aim.velocity);
-    asked = null;
-    page.prediction = prediction;
-    page.dirty = true;
-    if (!aim.active && page.struck && sameVelocity(prediction, page.struck)) page.played = prediction;
-    if (aim.active && !answered) askForPrediction();
-  },
-};
-
-let asked = null; // the velocity that a prediction was asked for and has not come
-let dismissal = 0;
-let patience = 0;
-
-function send(command) {
-  if (!connection.send(command)) advise('The page is not connected to its server.');
-}
-
-function askForPrediction() {
-  if (!aim.active || asked || !page.connected) return;
-  asked = aim.velocity;
-  connection.send({ do: 'aim', velocity: asked });
-}
-
-function advise(text) {
-  say('advice', text);
-  clearTimeout(dismissal);
-  dismissal = setTimeout(() => say('advice', ''), ADVICE_TIME);
-  asked = null;
-}
-
-// A shot that is computed for long probably waits until the simulator has compiled its physics.
-function watchComputing() {
-  if (page.state?.computing) {
-    patience ||= setTimeout(() => { page.waits = true; showLink(); }, COMPUTE_TIME);
-    return;
-  }
-  clearTimeout(patience);
-  patience = 0;
-  page.waits = false;
-}
-
-function notice() {
-  const compiled = 'the physics is compiled; this takes about 15 s, on the first run only.';
-  if (page.state.computing && page.compiling) return `Your shot waits until ${compiled}`;
-  if (page.compiling) return `Shots, and the paths while you aim, wait until ${compiled}`;
-  if (page.waits) return 'The shot is being computed. The first one waits until the physics is compiled.';
-  return null;
-}
-
-function showAim() {
-  if (document.activeElement !== $('direction')) $('direction').value = aim.direction.toFixed(1);
-  if (document.activeElement !== $('strength')) $('strength').value = aim.speed.toFixed(2);
-}
-
-function showLink() {
-  const { connected, simulator, state } = page;
-  const lost = connected ? simulator?.problem : 'The page has lost its server, and keeps trying to reach it.';
-  showProblem(lost);
-  showState(state, lost, page.compiling);
-  showNotice(connected && state && !lost ? notice() : null);
-  say('simulator', simulator?.name ?? '');
-  const usable = Boolean(connected && state);
-  for (const button of document.querySelectorAll('button')) button.disabled = !usable;
-  $('speed').disabled = !usable;
-  if (!usable) return;
-  $('shoot').disabled = !canPlay();
-  for (const button of $('shots').querySelectorAll('button')) button.disabled = !canPlay();
-  $('step').disabled = !state.paused;
-  $('pause').textContent = state.paused ? 'Resume' : 'Pause';
-  $('pause').setAttribute('aria-pressed', String(state.paused));
-  showSpeed(state.real_time_factor);
-}
-
-function showSpeed(factor) {
-  const select = $('speed');
-  if (![...select.options].some((option) => Number(option.value) === factor)) {
-    select.add(new Option(`${factor} ×`, String(factor)));
-  }
-  if (document.activeElement !== select) select.value = String(factor);
-}
-
-function layOut() {
-  if (!page.table) return;
-  const width = canvas.parentElement.clientWidth;
-  const height = Math.max(260, window.innerHeight * (width < 600 ? 0.56 : 0.66));
-  painter.fit(page.table, width, height);
-  page.dirty = true;
-}
-
-const play = {
-  shot: (number) => { page.played = null; send({ do: 'shot', number }); },
-  pause: () => send({ do: 'pause', paused: !page.state?.paused }),
-  step: () => send({ do: 'step' }),
-  reset: () => { page.played = null; send({ do: 'reset' }); },
-  shoot: () => (canPlay() ? aim.shoot() : advise('Wait until the balls are at rest.')),
-};
-
-for (const button of $('shots').querySelectorAll('button')) {
-  button.addEventListener('click', () => play.shot(Number(button.dataset.shot)));
-}
-for (const name of ['pause', 'step', 'reset', 'shoot']) $(name).addEventListener('click', play[name]);
-$('speed').addEventListener('change', () => send({ do: 'speed', factor: Number($('speed').value) }));
-for (const id of ['direction', 'strength']) {
-  $(id).addEventListener('input', () => {
-    aim.set($('direction').valueAsNumber, $('strength').valueAsNumber);
-  });
-}
-
-document.addEventListener('keydown', (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
-  const inField = event.target.matches('input, select');
-  const onButton = event.target.matches('button');
-  const fine = event.shiftKey;
-  const keys = {
-    ArrowLeft: () => aim.turn(fine ? 0.1 : 1),
-    ArrowRight: () => aim.turn(fine ? -0.1 : -1),
-    ArrowUp: () => aim.strengthen(fine ? 0.01 : 0.1),
-    ArrowDown: () => aim.strengthen(fine ? -0.01 : -0.1),
-    Escape: () => aim.cancel(),
-    Enter: play.shoot,
-    ' ': play.pause,
-    s: play.step,
-    r: play.reset,
-    1: () => play.shot(1), 2: () => play.shot(2), 3: () => play.shot(3), 4: () => play.shot(4),
-  };
-  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-  if (!keys[key] || (onButton && (key === 'Enter' || key === ' '))) return;
-  if (inField && !(key === 'Escape' || (key === 'Enter' && event.target.matches('input')))) return;
-  event.preventDefault();
-  // So that Enter shoots, and does not press the button that was used last.
-  if (key.startsWith('Arrow')) canvas.focus({ preventScroll: true });
-  keys[key]();
-});
-
-window.addEventListener('resize', layOut);
-
-function draw() {
-  requestAnimationFrame(draw);
-  if (!page.table || !timeline.newest) return;
-  timeline.advance(seconds());
-  const places = timeline.places();
-  if (places.length !== 2 * page.table.balls.length) return;
-  const { flashes } = page;
-  while (flashes.length && isOver(flashes[0], timeline.time)) flashes.shift();
-  showReadings(timeline.time, timeline.speeds());
-  const still = page.places?.length === places.length
-    && places.every((place, i) => place === page.places[i]);
-  page.places = places;
-  if (canPlay() === $('shoot').disabled) showLink();
-  if (still && !flashes.length && !page.dirty) return;
-  page.dirty = aim.active;
-  const shown = aim.active ? page.prediction : page.played;
-  painter.draw({
-    places, flashes, time: timeline.time, aim: aim.active ? aim : null, paths: shown?.paths ?? null,
-  });
-  page.drawn += 1;
-}
-requestAnimationFrame(draw);
-showAim();
+listenToKeys({ play, aim, form, replay, canvas });
+listenToButtons();
+form.show();
+start();

@@ -1,14 +1,10 @@
 // Draws the table on a canvas.
 
+import { Balls, isDark, rgb } from './balls.js';
 import { Geometry } from './geometry.js';
+import { drawAxes, drawGround } from './ground.js';
 
-const CLOTH = ['#2a8257', '#1c6240'];
-const WOOD = ['#7b4a28', '#5b3319'];
-const CUSHION = '#175337';
 const FLASH_TIME = 0.25; // s of sim time, at real speed
-
-const rgb = (color) => `rgb(${color.map((part) => Math.round(255 * part)).join(' ')})`;
-const isDark = ([r, g, b]) => 0.299 * r + 0.587 * g + 0.114 * b < 0.35; // luma, ITU-R BT.601
 
 export class Painter {
   constructor(canvas) {
@@ -17,8 +13,8 @@ export class Painter {
     this.geometry = null;
   }
 
-  // Lay out for a table in a box of CSS pixels.
-  fit(table, width, height) {
+  // Lay out for a table in a box of CSS pixels; `units` where axes are wanted.
+  fit(table, width, height, units = null) {
     this.geometry = new Geometry(table, width, height);
     this.table = table;
     this.ratio = Math.min(window.devicePixelRatio || 1, 3);
@@ -27,8 +23,11 @@ export class Painter {
     canvas.height = Math.round(geometry.height * this.ratio);
     canvas.style.width = `${geometry.width}px`;
     canvas.style.height = `${geometry.height}px`;
-    this.ground = this.layer(geometry.width, geometry.height, (c) => this.drawGround(c));
-    this.sprites = table.balls.map((ball) => this.drawBall(ball));
+    this.ground = this.layer(geometry.width, geometry.height, (c) => {
+      drawGround(c, geometry, table);
+      if (units) drawAxes(c, geometry, table, units);
+    });
+    this.balls = new Balls(table, geometry, (...parts) => this.layer(...parts));
   }
 
   layer(width, height, draw) {
@@ -41,94 +40,23 @@ export class Painter {
     return layer;
   }
 
-  drawGround(c) {
-    const { width, height, rail, scale } = this.geometry;
-    const wood = c.createLinearGradient(0, 0, 0, height);
-    wood.addColorStop(0, WOOD[0]);
-    wood.addColorStop(1, WOOD[1]);
-    c.fillStyle = wood;
-    c.beginPath();
-    c.roundRect(0, 0, width, height, 0.07 * scale);
-    c.fill();
-    const edge = 0.045 * scale;
-    c.fillStyle = CUSHION;
-    c.fillRect(rail - edge, rail - edge, width - 2 * (rail - edge), height - 2 * (rail - edge));
-    const [w, h] = [width - 2 * rail, height - 2 * rail];
-    const cloth = c.createRadialGradient(
-      width / 2, height / 2, 0, width / 2, height / 2, Math.max(w, h) * 0.65,
-    );
-    cloth.addColorStop(0, CLOTH[0]);
-    cloth.addColorStop(1, CLOTH[1]);
-    c.fillStyle = cloth;
-    c.fillRect(rail, rail, w, h);
-    c.fillStyle = '#e9dcc3';
-    const middle = (rail - edge) / 2;
-    const sight = Math.max(1.2, 0.009 * scale);
-    const dot = (x, y) => { c.beginPath(); c.arc(x, y, sight, 0, 7); c.fill(); };
-    const [along, across] = this.geometry.upright ? [4, 8] : [8, 4];
-    for (let i = 1; i < along; i += 1) {
-      dot(rail + (w * i) / along, middle);
-      dot(rail + (w * i) / along, height - middle);
-    }
-    for (let i = 1; i < across; i += 1) {
-      dot(middle, rail + (h * i) / across);
-      dot(width - middle, rail + (h * i) / across);
-    }
-  }
-
-  drawBall(ball) {
-    const r = ball.radius * this.geometry.scale;
-    const half = r * 1.5;
-    const layer = this.layer(2 * half, 2 * half, (c) => {
-      c.translate(half, half);
-      c.fillStyle = 'rgb(0 0 0 / 0.28)';
-      c.beginPath();
-      c.arc(0.12 * r, 0.16 * r, r, 0, 7);
-      c.fill();
-      c.fillStyle = rgb(ball.color);
-      c.beginPath();
-      c.arc(0, 0, r, 0, 7);
-      c.fill();
-      const shade = c.createRadialGradient(-0.35 * r, -0.4 * r, 0.05 * r, 0, 0, r);
-      shade.addColorStop(0, 'rgb(255 255 255 / 0.55)');
-      shade.addColorStop(0.35, 'rgb(255 255 255 / 0.08)');
-      shade.addColorStop(0.75, 'rgb(0 0 0 / 0.04)');
-      shade.addColorStop(1, 'rgb(0 0 0 / 0.38)');
-      c.fillStyle = shade;
-      c.fill();
-      c.fillStyle = ball.is_cue ? 'rgb(255 255 255 / 0.6)' : 'rgb(255 255 255 / 0.94)';
-      c.beginPath();
-      c.arc(0, 0, 0.6 * r, 0, 7);
-      c.fill();
-      c.fillStyle = '#1b1a18';
-      const size = (ball.label.length > 2 ? 1.5 / ball.label.length : 0.85) * r;
-      c.font = `650 ${size}px system-ui, sans-serif`;
-      c.textAlign = 'center';
-      c.textBaseline = 'middle';
-      c.fillText(ball.label, 0, 0.06 * r);
-    });
-    return { layer, half };
-  }
-
-  // `scene`: places [x0, y0, ...], time, flashes [{stamp, x, y, speed}], aim or null, paths
-  draw({ places, time, flashes, aim, paths }) {
+  // `scene`: places [x0, y0, ...], turns, sunk, time, flashes [{stamp, x, y, speed}], aim or null,
+  // lines [{paths, style}] with the style 'strong', 'faint' or 'other', hand {ball, x, y, free} or null
+  draw({ places, turns, sunk, time, flashes, aim, lines, hand }) {
     const c = this.context;
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     c.drawImage(this.ground, 0, 0, this.geometry.width, this.geometry.height);
-    if (paths) this.drawPaths(paths, aim !== null);
-    for (let ball = 0; 2 * ball < places.length; ball += 1) {
-      const { layer, half } = this.sprites[ball];
-      const [x, y] = this.geometry.toScreen(places[2 * ball], places[2 * ball + 1]);
-      c.drawImage(layer, x - half, y - half, 2 * half, 2 * half);
-    }
+    for (const { paths, style } of lines) this.drawPaths(paths, style);
+    this.balls.draw(c, places, turns, sunk);
     for (const flash of flashes) this.drawFlash(flash, time);
+    if (hand) this.drawHand(hand);
     if (aim) this.drawCue(aim, places);
   }
 
-  drawPaths(paths, strong) {
+  drawPaths(paths, style) {
     const c = this.context;
     c.save();
-    c.globalAlpha = strong ? 0.95 : 0.45;
+    c.globalAlpha = style === 'faint' ? 0.5 : 0.95;
     c.lineJoin = 'round';
     for (const { ball, points } of paths) {
       const { color, radius } = this.table.balls[ball];
@@ -136,18 +64,25 @@ export class Painter {
       c.beginPath();
       line.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
       c.setLineDash([]);
-      c.lineWidth = 3.4;
-      c.strokeStyle = isDark(color) ? 'rgb(255 255 255 / 0.65)' : 'rgb(0 0 0 / 0.45)';
-      c.stroke();
-      c.lineWidth = 1.8;
-      c.strokeStyle = rgb(color);
-      c.stroke();
+      if (style === 'other') {
+        c.setLineDash([6, 4]);
+        c.lineWidth = 1.6;
+        c.strokeStyle = '#fff';
+        c.stroke();
+      } else {
+        c.lineWidth = 3.4;
+        c.strokeStyle = isDark(color) ? 'rgb(255 255 255 / 0.65)' : 'rgb(0 0 0 / 0.45)';
+        c.stroke();
+        c.lineWidth = 1.8;
+        c.strokeStyle = rgb(color);
+        c.stroke();
+      }
       const [x, y] = line.at(-1);
       c.beginPath();
       c.arc(x, y, radius * this.geometry.scale, 0, 7);
       c.setLineDash([3, 3]);
       c.lineWidth = 1.4;
-      c.strokeStyle = isDark(color) ? '#fff' : rgb(color);
+      c.strokeStyle = style === 'other' || isDark(color) ? '#fff' : rgb(color);
       c.stroke();
     }
     c.restore();
@@ -166,7 +101,20 @@ export class Painter {
     c.stroke();
   }
 
-  drawCue({ velocity }, places) {
+  // The ball in hand: where it would lie, red where it cannot.
+  drawHand({ ball, x, y, free }) {
+    const c = this.context;
+    const { color, radius } = this.table.balls[ball];
+    c.beginPath();
+    c.arc(...this.geometry.toScreen(x, y), radius * this.geometry.scale, 0, 7);
+    c.fillStyle = rgb(color);
+    c.fill();
+    c.lineWidth = 3;
+    c.strokeStyle = free ? '#fff' : '#ff3b1f';
+    c.stroke();
+  }
+
+  drawCue({ velocity, readout }, places) {
     const c = this.context;
     const speed = Math.hypot(...velocity);
     if (!speed) return;
@@ -188,7 +136,32 @@ export class Painter {
       c.strokeStyle = color;
       c.stroke();
     }
+    this.drawReadout(readout, at(tip + 0.12), at(0));
     c.restore();
+  }
+
+  // The numbers beside the cue, within the picture, and not over the ball if that can be.
+  drawReadout(text, [x, y], ball) {
+    const c = this.context;
+    c.font = '600 13px system-ui, sans-serif';
+    c.textBaseline = 'middle';
+    const [width, height] = [c.measureText(text).width + 14, 24];
+    const fit = (place, size, most) => Math.max(4, Math.min(most - size - 4, place));
+    const apart = this.table.balls[0].radius * this.geometry.scale + 8;
+    const places = [[12, -height - 12], [12, 12], [-width - 12, -height - 12], [-width - 12, 12]].map(([dx, dy]) => {
+      const [left, top] = [fit(x + dx, width, this.geometry.width), fit(y + dy, height, this.geometry.height)];
+      const [bx, by] = [ball[0] - Math.max(left, Math.min(left + width, ball[0])),
+        ball[1] - Math.max(top, Math.min(top + height, ball[1]))];
+      return { left, top, free: Math.hypot(bx, by) > apart };
+    });
+    const { left, top } = places.find(({ free }) => free) ?? places[0];
+    c.fillStyle = 'rgb(0 0 0 / 0.72)';
+    c.beginPath();
+    c.roundRect(left, top, width, height, 6);
+    c.fill();
+    c.fillStyle = '#fff';
+    c.textAlign = 'left';
+    c.fillText(text, left + 7, top + height / 2 + 1);
   }
 }
 

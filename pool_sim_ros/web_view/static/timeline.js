@@ -1,5 +1,7 @@
 // Where the balls are at any moment between the frames that arrived.
 
+import { between } from './turning.js';
+
 const DELAY_FRAMES = 2; // how far behind the newest frame the picture runs, so that there is a next
 const SETTLE = 0.1; // s in which the picture's clock takes up most of a deviation
 const WINDOW = 0.5; // s of arrivals that tell the pace
@@ -11,7 +13,7 @@ export class Timeline {
   }
 
   clear() {
-    this.frames = []; // {stamp, arrival, places: [x0, y0, x1, ...]}, in order of time
+    this.frames = []; // {stamp, arrival, places: [x0, y0, x1, ...], turns, sunk}, in order of time
     this.corners = new Map(); // ball -> [{stamp, x, y}]: where it was when it touched something
     this.time = NaN; // sim time of the picture, s
     this.now = NaN;
@@ -21,12 +23,13 @@ export class Timeline {
     return this.frames.at(-1);
   }
 
-  // Take a frame that arrived at the wall time `arrival`, s.
-  add(stamp, places, arrival) {
+  // Take a frame that arrived at the wall time `arrival`, s. Where balls turn and fall into pockets
+  // it has their quaternions `turns` and which are `sunk`; else these are null.
+  add(stamp, places, arrival, turns = null, sunk = null) {
     const newest = this.newest;
     if (newest && (stamp < newest.stamp || places.length !== newest.places.length)) this.clear();
     if (newest && stamp === newest.stamp) this.frames.pop();
-    this.frames.push({ stamp, arrival, places });
+    this.frames.push({ stamp, arrival, places, turns, sunk });
     while (this.frames.length > 4 && this.frames[1].arrival < arrival - WINDOW
       && this.frames[1].stamp < this.time) this.frames.shift();
   }
@@ -71,14 +74,33 @@ export class Timeline {
     this.now = now;
   }
 
-  // [x0, y0, x1, ...] at the picture's time.
-  places() {
+  // The two frames around the picture's time; they are the same where nothing lies between.
+  around() {
     const { frames, time } = this;
     let after = frames.length - 1;
     while (after > 0 && frames[after - 1].stamp > time) after -= 1;
     const to = frames[after];
-    const from = frames[Math.max(0, after - 1)];
-    if (time >= to.stamp || to === from) return to.places.slice();
+    return time >= to.stamp ? [to, to] : [frames[Math.max(0, after - 1)], to];
+  }
+
+  // Quaternions at the picture's time; null where balls do not turn.
+  turns() {
+    const [from, to] = this.around();
+    if (!from.turns || from === to) return to.turns;
+    const part = (this.time - from.stamp) / (to.stamp - from.stamp);
+    return to.turns.map((turn, ball) => between(from.turns[ball], turn, part));
+  }
+
+  // Which balls lie in a pocket; null where there is none.
+  sunk() {
+    return this.around()[0].sunk;
+  }
+
+  // [x0, y0, x1, ...] at the picture's time.
+  places() {
+    const { time } = this;
+    const [from, to] = this.around();
+    if (to === from) return to.places.slice();
     const places = new Array(to.places.length);
     for (let ball = 0; 2 * ball < places.length; ball += 1) {
       let low = { stamp: from.stamp, x: from.places[2 * ball], y: from.places[2 * ball + 1] };
