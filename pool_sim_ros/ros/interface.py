@@ -120,24 +120,19 @@ SET_BALL_POSES = Topic(
     _qos(10),
 )
 BALL_POSES = Topic(
-<<<<<<< HEAD
-    'ball_poses', PoseArray, 'each tick: every ball, cue ball first', _qos(10), KEPT_FRAMES
-)
-BALL_VELOCITIES = Topic(
-    'ball_velocities', Float64MultiArray, 'with each frame: (n, 2), m/s', _qos(10), KEPT_FRAMES
-=======
     'ball_poses',
     PoseArray,
     'each tick: every ball, cue ball first, and how it is turned where balls spin; a ball in a '
     "pocket is at the pocket's centre, one radius below the cloth",
     _qos(10),
+    KEPT_FRAMES,
 )
 BALL_VELOCITIES = Topic(
     'ball_velocities',
     Float64MultiArray,
     'with each frame: (n, 2), m/s; where balls spin (n, 5), with their spins, rad/s',
     _qos(10),
->>>>>>> h3-node
+    KEPT_FRAMES,
 )
 COLLISIONS = Topic(
     'collisions',
