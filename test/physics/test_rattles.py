@@ -173,7 +173,10 @@ def spread_by_rounding(rng, table, velocities, finals, trials):
 
 
 def unexplained_differences(seed, tables, shots):
-    """Return the differences between images of crowded shots that rounding does not explain."""
+    """Return the differences between images of crowded shots that rounding does not explain.
+
+    An image is itself off by rounding: either of the two may be the one that this moves.
+    """
     rng = np.random.default_rng(seed)
     found = []
     for _ in range(tables):
@@ -181,12 +184,15 @@ def unexplained_differences(seed, tables, shots):
         velocities = strikes(rng, table, shots)
         finals = simulate_many(table, velocities, until=1.0).finals
         for image, strokes, back in images_of(rng, table, velocities):
-            off = back(simulate_many(image, strokes, until=1.0).finals) - finals
+            others = simulate_many(image, strokes, until=1.0).finals
+            off = back(others) - finals
             for k in np.flatnonzero(np.abs(off).max(axis=(1, 2)) > 1e-6):
                 off_by, spread = float(np.abs(off[k]).max()), 0.0
                 for trials in (50, 1000, 20_000):
                     spread = max(
-                        spread, spread_by_rounding(rng, table, velocities[k], finals[k], trials)
+                        spread,
+                        spread_by_rounding(rng, table, velocities[k], finals[k], trials),
+                        spread_by_rounding(rng, image, strokes[k], others[k], trials),
                     )
                     if 10.0 * spread > off_by:
                         break
