@@ -1,6 +1,6 @@
 """Every tolerance and bound of the physics, each with its reason. SI units.
 
-The kernels compile these numbers in: after a change, clear numba's cache (`make test` does).
+The kernels compile these numbers in; a change counts at once, see `kernel_sources`.
 """
 
 # Places

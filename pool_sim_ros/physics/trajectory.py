@@ -36,8 +36,9 @@ class Trajectory:
         1 is x = length, 2 is y = 0, 3 is y = width; with `Table.cushions` the row, segments first,
         then noses), 2 stop (b = -1), 3 pocketed (b: the pocket), 4 a slide becomes a roll (b = -1);
         ``a``, ``b``; ``x``, ``y``: the point of contact, or the centre of the ball (m); ``nx``,
-        ``ny``: the unit vector from a to b or into the cushion, otherwise zero; ``speed``: closing
-        speed before a contact, otherwise that of the ball (m/s).
+        ``ny``: the unit vector from a to b, into the cushion or to the pocket's centre, otherwise
+        zero; ``speed``: closing speed before a contact, that of a ball that is caught, otherwise 0
+        (m/s).
     segments : structured ndarray
         What each ball does from ``t`` on, in order of time: ``ball``, ``t`` (s), ``x``, ``y`` (m),
         ``vx``, ``vy`` (m/s) and the constant acceleration ``ax``, ``ay`` (m/s^2), until its next
