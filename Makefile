@@ -71,8 +71,10 @@ check: $(INSTALLED)
 	$(PY) -m ruff check .
 	$(VENV)/bin/lint-imports
 
+# Compiled once, before two processes would do it side by side.
 test: check
 	$(call VERSIONS,$(PY))
+	@$(PY) -c 'from pool_sim_ros.physics import *; [compile_kernels(t) for t in (report_table(), pool_table("7ft"))]'
 	$(PY) -m pytest --cov -n $(JOBS) --dist loadfile
 
 soak: $(INSTALLED)

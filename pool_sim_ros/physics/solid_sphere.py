@@ -8,6 +8,3 @@ SPIN_PER_PUSH = 5.0 / 2.0
 
 NO_SLIP_SHARE = 2.0 / 7.0
 """1 / (1 + m R^2 / I): the part of a slip that, as a push, stops the slip."""
-
-ROLLING_SHARE = 5.0 / 7.0
-"""The part of a velocity that a ball still has where a slide without spin has become a roll."""

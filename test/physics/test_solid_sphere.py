@@ -11,7 +11,6 @@ def test_all_follow_from_the_moment_of_inertia():
     assert solid_sphere.INERTIA == float(inertia)
     assert solid_sphere.SPIN_PER_PUSH == float(1 / inertia)
     assert solid_sphere.NO_SLIP_SHARE == float(1 / (1 + 1 / inertia))
-    assert solid_sphere.ROLLING_SHARE == float(1 - 1 / (1 + 1 / inertia))
 
 
 def test_the_inertia_is_that_of_a_ball_filled_evenly():

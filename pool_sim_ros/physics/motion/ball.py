@@ -32,7 +32,7 @@ from pool_sim_ros.physics.motion.straight_path import (
     first_on_path,
     time_to_cover,
 )
-from pool_sim_ros.physics.solid_sphere import NO_SLIP_SHARE, ROLLING_SHARE, SPIN_PER_PUSH
+from pool_sim_ros.physics.solid_sphere import NO_SLIP_SHARE, SPIN_PER_PUSH
 from pool_sim_ros.physics.tolerances import LONGEST
 
 
@@ -102,11 +102,11 @@ def end_phase(ball: Record, table: BallTable, now: float) -> int:
     ball.wz = spin_left(ball.wz, table, elapsed)
     ball.since = now
     if slides:
-        # Exactly what is left when the slip is gone: v - 2/7 of the slip.
+        # v - 2/7 of the slip, so written that it is exactly 0 where backspin eats up all of it.
         radius = table.radius
         ball.vx, ball.vy = (
-            ROLLING_SHARE * ball.vx + NO_SLIP_SHARE * radius * ball.wy,
-            ROLLING_SHARE * ball.vy - NO_SLIP_SHARE * radius * ball.wx,
+            NO_SLIP_SHARE * (SPIN_PER_PUSH * ball.vx + radius * ball.wy),
+            NO_SLIP_SHARE * (SPIN_PER_PUSH * ball.vy - radius * ball.wx),
         )
         begin_to_roll(ball, table)
         if ball.phase == ROLLS:
