@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import struct
 from collections.abc import Coroutine
 from typing import Any
 
@@ -192,7 +193,7 @@ class View:
         elif content['phase'] == Phase.PREEMPTED:
             self._strikes.forget()
         elif done:
-            self._strikes.done(self._table, content)
+            self._run(self._strikes.done(self._table, content))
 
     def _tell_strike(self, fields: dict[str, Any] | None) -> None:
         self.pages.tell('strike', fields, keep=True)
@@ -258,11 +259,8 @@ class View:
         if table is None:
             self._early = poses
             return
-        state, before = self._state, self._frame
-        still = before is not None and before[8:] == frame[8:]
-        resting = state is not None and not state['moving'] and not state['computing']
-        if still or resting:
-            self._strikes.resting(frame_positions(frame, whole=whole))
+        (stamp,) = struct.unpack_from('<d', frame)
+        self._strikes.saw(stamp, frame_positions(frame, whole=whole))
         self._frame = frame
         self.pages.show(frame)
 

@@ -50,26 +50,26 @@ def test_a_number_is_used_and_shown_as_it_is_typed(page):
     assert value(page, 'direction') == '180' and velocities == [[-2.345, 0]] * 4
 
 
-@pytest.mark.parametrize(
-    ('field', 'text', 'words'),
-    [
-        ('direction', 'north', '“north” is no number'),
-        ('direction', '', 'a number is missing'),
-        ('strength', '1,5', 'write 1.5'),
-        ('strength', '0', 'above 0'),
-        ('strength', '-1', 'at least 0'),
-        ('strength', '1e999', 'is no number'),
-        ('vx', '--3', 'is no number'),
-    ],
-)
-def test_what_is_refused_says_why_and_changes_nothing(page, field, text, words):
-    before = page.get('page.aim.request')
-    page.fill(**{field: text})
-    assert words in page.text('refusal')
-    assert page.get('page.aim.request') == before
-    assert page.page.get_attribute(f'#{field}', 'aria-invalid') == 'true'
-    page.page.focus('#table')
-    page.wait('document.getElementById("refusal").textContent === ""')
+REFUSED = [
+    ('direction', 'north', '“north” is no number'),
+    ('direction', '', 'a number is missing'),
+    ('strength', '1,5', 'write 1.5'),
+    ('strength', '0', 'above 0'),
+    ('strength', '-1', 'at least 0'),
+    ('strength', '1e999', 'is no number'),
+    ('vx', '--3', 'is no number'),
+]
+
+
+def test_what_is_refused_says_why_and_changes_nothing(page):
+    for field, text, words in REFUSED:
+        before = page.get('page.aim.request')
+        page.fill(**{field: text})
+        assert words in page.text('refusal'), (field, text)
+        assert page.get('page.aim.request') == before
+        assert page.page.get_attribute(f'#{field}', 'aria-invalid') == 'true'
+        page.page.focus('#table')
+        page.wait('document.getElementById("refusal").textContent === ""')
 
 
 def test_too_fast_a_shot_is_refused_by_the_simulator_in_words(page):
@@ -193,42 +193,44 @@ def test_a_link_opens_the_same_shot(page, site, show):
     assert other.get('page.places') == played
 
 
-@pytest.mark.parametrize(
-    ('search', 'words'),
-    [
-        ('?vx=a&vy=0', 'vx: “a” is no number'),
-        ('?vx=0&vy=0', 'both 0'),
-        ('?spin=1,2,3', 'spin needs vx and vy'),
-        ('?vx=1&vy=0&layout=C', 'layout must be'),
-        ('?vx=1&vy=0&layout=C:1', 'must be 2 numbers'),
-        ('?vx=1&vy=0&layout=Q:1,0.5', '"Q"'),
-        ('?vx=1&vy=0&spin=0,0,1', 'no spin'),
-    ],
-)
-def test_a_link_that_makes_no_sense_is_refused_in_one_line(page, site, show, search, words):
-    other = show(site.address + '/' + search)
-    other.wait("document.getElementById('advice').textContent")
-    assert words in other.text('advice')
-    assert other.get('page.places') == TABLE.positions.ravel().tolist()
+SENSELESS = {
+    '?vx=a&vy=0': 'vx: “a” is no number',
+    '?vx=0&vy=0': 'both 0',
+    '?spin=1,2,3': 'spin needs vx and vy',
+    '?vx=1&vy=0&layout=C': 'layout must be',
+    '?vx=1&vy=0&layout=C:1': 'must be 2 numbers',
+    '?vx=1&vy=0&layout=Q:1,0.5': '"Q"',
+    '?vx=1&vy=0&spin=0,0,1': 'no spin',
+}
+
+
+def test_a_link_that_makes_no_sense_is_refused_in_one_line(page, site):
+    for search, words in SENSELESS.items():
+        page.page.goto(f'{site.address}/{search}')
+        page.wait("document.getElementById('advice').textContent")
+        assert words in page.text('advice'), search
+        assert page.get('page.places') == TABLE.positions.ravel().tolist()
 
 
 PHONES = [(320, 568), (390, 844), (844, 390), (430, 932)]
 
 
-@pytest.mark.parametrize(('width', 'height'), [*PHONES, (768, 1024), (1440, 900)])
-def test_nothing_scrolls_sideways_and_a_finger_finds_everything(site, show, width, height):
-    size = {'width': width, 'height': height}
-    phone = (width, height) in PHONES
+@pytest.mark.parametrize(('sizes', 'phone'), [(PHONES, True), ([(768, 1024), (1440, 900)], False)])
+def test_nothing_scrolls_sideways_and_a_finger_finds_everything(site, show, sizes, phone):
+    size = dict(zip(('width', 'height'), sizes[0], strict=True))
     page = show(site.address, size, has_touch=phone, is_mobile=phone)
     page.start_over()
     page.press('1')
     page.wait_for_result()
-    assert page.get('document.documentElement.scrollWidth') <= width
-    small = page.get("""[...document.querySelectorAll('button, input, select')]
-      .filter((element) => element.checkVisibility())
-      .map((element) => (element.type === 'checkbox' ? element.closest('label') : element))
-      .filter((element) => Math.min(element.offsetWidth, element.offsetHeight) < 44)
-      .map((element) => element.id || element.textContent)""")
-    assert not phone or small == []
-    box = page.page.locator('#table').bounding_box()
-    assert box['x'] >= 0 and box['x'] + box['width'] <= width and box['height'] <= height
+    for width, height in sizes:
+        page.page.set_viewport_size({'width': width, 'height': height})
+        page.wait(f'innerWidth === {width} && innerHeight === {height} && !page.dirty')
+        assert page.get('document.documentElement.scrollWidth') <= width
+        small = page.get("""[...document.querySelectorAll('button, input, select')]
+          .filter((element) => element.checkVisibility())
+          .map((element) => (element.type === 'checkbox' ? element.closest('label') : element))
+          .filter((element) => Math.min(element.offsetWidth, element.offsetHeight) < 44)
+          .map((element) => element.id || element.textContent)""")
+        assert not phone or small == [], (width, height)
+        box = page.page.locator('#table').bounding_box()
+        assert box['x'] >= 0 and box['x'] + box['width'] <= width and box['height'] <= height

@@ -84,6 +84,7 @@ export function listenToButtons() {
   $('units').addEventListener('change', () => {
     page.units.choose($('units').value);
     for (const unit of document.querySelectorAll('.unit')) unit.textContent = page.units.name;
+    page.hand.show(true);
     layOut();
   });
   page.canvas.addEventListener('pointermove', (event) => {

@@ -13,13 +13,14 @@ export class Hand {
     this.view = view;
     this.held = null; // {ball, x, y, free}
     this.takesCue = false;
+    this.shown = {}; // axis -> {text, value}: the text in its field, and the exact place
     const { canvas } = view;
     canvas.addEventListener('pointerdown', (event) => this.take(event));
     canvas.addEventListener('pointermove', (event) => this.move(event));
     canvas.addEventListener('pointerup', (event) => this.drop(event));
     canvas.addEventListener('pointercancel', () => this.letGo());
     $('take').addEventListener('click', () => this.takeCue(!this.takesCue));
-    $('ball').addEventListener('change', () => this.show());
+    $('ball').addEventListener('change', () => this.show(true));
     $('place').addEventListener('click', () => this.type());
   }
 
@@ -52,7 +53,7 @@ export class Hand {
     this.offset = [x - event.offsetX, y - event.offsetY];
     this.held = { ball, x: places[2 * ball], y: places[2 * ball + 1], free: true };
     $('ball').value = String(ball);
-    this.show();
+    this.show(true);
     this.view.onChange();
   }
 
@@ -65,7 +66,7 @@ export class Hand {
     this.held = { ball, x, y, free: !fault };
     this.moved = Math.hypot(event.offsetX - this.from[0], event.offsetY - this.from[1]) > 3;
     this.view.advise(fault ?? '');
-    this.show();
+    this.show(true);
     this.view.onChange();
   }
 
@@ -107,28 +108,29 @@ export class Hand {
     try {
       const [x, y] = ['x', 'y'].map((axis) => {
         const text = $(`place-${axis}`).value;
-        const shown = this.shown?.[axis];
+        const shown = this.shown[axis];
         return shown && text === shown.text ? shown.value : readNumber(text, axis) * units.size;
       });
       const fault = this.fault(ball, x, y);
       if (fault) throw new Error(fault);
       say('place-refusal', '');
+      this.shown = {};
       this.view.onPlace(ball, x, y);
     } catch (error) {
       say('place-refusal', error.message);
     }
   }
 
-  // Show where the chosen ball is, but for what somebody is typing.
-  show() {
+  // Show where the chosen ball is, but for what somebody has typed, unless this is to go.
+  show(anew = false) {
     const [places, ball] = [this.view.places(), Number($('ball').value)];
     if (!places || !(2 * ball < places.length)) return;
     const { units } = this.view;
     const at = this.held?.ball === ball ? [this.held.x, this.held.y] : places.slice(2 * ball, 2 * ball + 2);
-    this.shown ??= {};
     ['x', 'y'].forEach((axis, i) => {
       const field = $(`place-${axis}`);
-      if (document.activeElement === field) return;
+      const typed = this.shown[axis] && field.value !== this.shown[axis].text;
+      if (!anew && (typed || document.activeElement === field)) return;
       field.value = units.number(at[i]);
       this.shown[axis] = { text: field.value, value: at[i] };
     });
