@@ -24,6 +24,7 @@ from pool_sim_ros.physics.motion.curved_path import (
     first_of_listed,
     time_to_place,
 )
+from pool_sim_ros.physics.motion.moving_balls import keep_in_rows, mark_those_near
 from pool_sim_ros.physics.motion.phase import RESTS, ROLLS, SLIDES
 from pool_sim_ros.physics.motion.straight_path import (
     StraightPath,
@@ -121,6 +122,23 @@ def end_phase(ball: Record, table: BallTable, now: float) -> int:
 
 def has_phases(table: BallTable) -> bool:
     """Return that a ball rolls when it has stopped to slide."""
+    return True
+
+
+def keep_path(ball: Record, table: BallTable, rows: NDArray[np.float64], i: int) -> None:
+    """Note how a ball moves from `since` on."""
+    keep_in_rows(ball, rows, i)
+
+
+def sift(
+    path: CurvedPath,
+    table: BallTable,
+    radius: float,
+    times: tuple[float, float],
+    rows: NDArray[np.float64],
+) -> bool:
+    """Mark those near; True."""
+    mark_those_near(path, radius, times[0], times[1], rows)
     return True
 
 
