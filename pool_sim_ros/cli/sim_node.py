@@ -12,6 +12,8 @@ from pool_sim_ros.ros import ros_command
 if TYPE_CHECKING:
     from rclpy.context import Context
 
+    from pool_sim_ros.simulator import ParameterSpec
+
 SHUTDOWN_PATIENCE = 0.1
 """Seconds to wait for the end of a shot's computation before the process ends."""
 
@@ -26,7 +28,10 @@ def _parser() -> argparse.ArgumentParser:
         *_endpoints(),
         '',
         'parameters:',
-        *(f'  {spec.name}: {spec.doc} ({spec.when})' for spec in PARAMETERS.values()),
+        *(
+            f'  {spec.name}: {spec.doc}{_choices(spec)} ({spec.when})'
+            for spec in PARAMETERS.values()
+        ),
     ]
     return Parser(
         prog='sim_node',
@@ -34,6 +39,10 @@ def _parser() -> argparse.ArgumentParser:
         epilog='\n'.join(epilog),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+
+
+def _choices(spec: ParameterSpec) -> str:
+    return f': {", ".join(spec.choices)}' if spec.choices else ''
 
 
 def _endpoints() -> list[str]:

@@ -117,8 +117,8 @@ COLLISIONS = Topic(
     'cushion b (0: x = 0, 1: x = length, 2: y = 0, 3: y = width; where there are pockets the row '
     'of table.cushion_segments, then of table.cushion_noses), kind 3 is ball a caught in pocket b; '
     'x, y the point of contact, or the centre of the ball that is caught, m; nx, ny the unit '
-    'vector from a to b or into the cushion, else 0; speed of closing, or of the ball that is '
-    'caught, m/s',
+    "vector from a to b, into the cushion or to the pocket's centre; speed of closing, or of the "
+    'ball that is caught, m/s',
     _qos(BURST),
 )
 STATE = Topic(

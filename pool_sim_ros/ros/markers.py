@@ -171,7 +171,9 @@ class Markers:
         """End the present line of each ball in a collision, and begin the next one there."""
         point, normal = row[_COLUMN['x'] : _COLUMN['y'] + 1], row[_COLUMN['nx'] : _COLUMN['ny'] + 1]
         kind, a, b = (int(row[_COLUMN[name]]) for name in ('kind', 'a', 'b'))
-        for ball, side in ((a, -1.0), (b, 1.0)) if kind == 0 else ((a, -1.0),):
+        # Where a ball is caught, the point is its centre.
+        sides = {0: ((a, -1.0), (b, 1.0)), 1: ((a, -1.0),), 3: ((a, 0.0),)}
+        for ball, side in sides[kind]:
             x, y = (point + side * self._table.radii[ball] * normal).tolist()
             self._trails.turn(ball, self._balls[ball].color, x, y)
 

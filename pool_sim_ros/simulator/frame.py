@@ -14,8 +14,8 @@ COLLISION_COLUMNS = ('seq', 't', 'kind', 'a', 'b', 'x', 'y', 'nx', 'ny', 'speed'
 seq counts from 0 and is never reset; t is sim time, s. Kind 0 is ball a on ball b, kind 1 is ball a
 on cushion b (0: x = 0, 1: x = length, 2: y = 0, 3: y = width; where cushions are given their row,
 straight ones first, then noses), kind 3 is ball a caught in pocket b. x, y is the point of contact,
-or the centre of the ball that is caught, m; nx, ny the unit vector from a to b or into the cushion,
-otherwise 0; speed that of closing, or that of the ball, m/s.
+or the centre of the ball that is caught, m; nx, ny the unit vector from a to b, into the cushion or
+to the pocket's centre; speed that of closing, or that of the ball, m/s.
 """
 
 VELOCITY_COLUMNS = ('vx', 'vy')

@@ -20,6 +20,7 @@ from pool_sim_ros.simulator.frame import (
 )
 from pool_sim_ros.simulator.layout import Layout
 from pool_sim_ros.simulator.sim_time import stamp_to_seconds, tick_to_stamp
+from pool_sim_ros.simulator.turning import Turning
 
 BLOCK = 64
 """Ticks that are looked up, and made into messages, together: one costs about as much as all."""
@@ -66,7 +67,7 @@ class Playback:
         self.next_tick = 0
         self._block_length = min(max(BLOCK_BALLS // len(layout.positions), 1), BLOCK)
         self._trajectory: Trajectory | None = None
-        self._start = layout
+        self._turning: Turning | None = None
         self._start_tick = 0
         self._collisions = NO_COLLISIONS
         self._first_seq = self._next_seq = 0
@@ -131,8 +132,10 @@ class Playback:
             raise RuntimeError(f'a shot was computed while {self.motion.value}')
         self.motion = Motion.READY
         self._trajectory = trajectory
-        self._start = self._layout if start is None else start
-        self._pocketed = self._start.pocketed
+        start = self._layout if start is None else start
+        self._pocketed = start.pocketed
+        turned = start.orientations
+        self._turning = None if turned is None else Turning(trajectory, turned)
         self._start_tick = self.next_tick
         self._first_seq = self._next_seq
         self._collisions = self._collisions_of(trajectory)
@@ -218,15 +221,16 @@ class Playback:
         moving = int(np.searchsorted(times, shot.duration))
         ends_shot = moving < len(times)
         positions, velocities = shot.positions(times[:moving]), shot.velocities(times[:moving])
-        start, orientations = self._start.orientations, None
-        if start is not None:
+        orientations = None
+        if self._turning is not None:
             until = np.append(times[:moving], shot.duration) if ends_shot else times[:moving]
-            orientations = self._without_jumps(shot.orientations(until, start), start)
+            orientations = self._turning.at(until)
             velocities = np.concatenate([velocities, shot.spins(times[:moving])], axis=2)
         if ends_shot:
             stamps = stamps[: moving + 1]
             positions = np.concatenate([positions, [shot.final_positions]])
-            rest = shot.final_velocities if start is None else np.zeros(velocities.shape[1:])
+            rest = np.zeros(velocities.shape[1:])
+            rest[:, :2] = shot.final_velocities
             velocities = np.concatenate([velocities, [rest]])
         collisions = self._next_collisions(stamps, ends_shot)
         return Block(
@@ -241,19 +245,6 @@ class Playback:
             orientations=orientations,
             pocketed=self._next_pocketed(collisions),
         )
-
-    def _without_jumps(
-        self, orientations: NDArray[np.float64], start: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """Return each of (k, n, 4) quaternions with the sign that is nearer to the one before.
-
-        Both signs are one orientation. The first follows the block before, or `start`.
-        """
-        block = self._block
-        before = start if block is None or block.orientations is None else block.orientations[-1]
-        each = np.concatenate([before[np.newaxis], orientations])
-        dots = np.sum(each[1:] * each[:-1], axis=2, keepdims=True)
-        return orientations * np.cumprod(np.where(dots < 0.0, -1.0, 1.0), axis=0)
 
     def _next_pocketed(self, collisions: Sequence[NDArray[np.float64]]) -> list[tuple[int, ...]]:
         """Return the balls in pockets at each of the next ticks, given the collisions of each."""

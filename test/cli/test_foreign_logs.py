@@ -6,12 +6,12 @@ import os
 import pytest
 from bounded_process import assert_one_line, run_bounded
 
-from pool_sim_ros.simulator.command_log import FORMAT
+from pool_sim_ros.simulator.command_log import FORMAT, VERSION
 from pool_sim_ros.simulator.log_reader import MAX_LINE
 from pool_sim_ros.simulator.parameter_table import default_values
 
 VALUES = default_values()
-HEADER = {'format': FORMAT, 'version': 1, 'parameters': VALUES}
+HEADER = {'format': FORMAT, 'version': VERSION, 'parameters': VALUES}
 
 
 def text_of(*lines):

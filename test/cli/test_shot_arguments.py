@@ -2,7 +2,7 @@
 
 import pytest
 
-from pool_sim_ros.cli.shot_arguments import ShotParser, check_shot
+from pool_sim_ros.cli.shot_arguments import ShotParser, check_shot, what_to_play
 from pool_sim_ros.console import CommandError
 
 
@@ -80,6 +80,43 @@ def test_a_bad_value_is_explained_before_ros_is_asked(capsys, words, explained):
 def test_what_no_simulator_plays_is_told_without_one(words, told):
     with pytest.raises(CommandError, match=told):
         check_shot(parse(*words))
+
+
+@pytest.mark.parametrize(
+    ('words', 'what'),
+    [
+        (['3'], {'shot': 3}),
+        (['--velocity', '-1', '0'], {'velocity': [-1, 0]}),
+        (
+            ['--velocity', '0', '0', '--spin', '0', '-4.', '1'],
+            {'velocity': [0, 0], 'spin': [0, -4, 1]},
+        ),
+        (['--cue', '2', '-90'], {'cue': {'speed': 2, 'azimuth': -90}}),
+        (
+            ['--cue', '2', '180', '--side', '0', '--above', '-.3', '--elevation', '5'],
+            {'cue': {'speed': 2, 'azimuth': 180, 'side': 0, 'above': -0.3, 'elevation': 5}},
+        ),
+    ],
+)
+def test_what_is_given_is_what_is_asked_for(words, what):
+    assert what_to_play(parse(*words)) == what
+    check_shot(parse(*words))
+
+
+@pytest.mark.parametrize(
+    'words',
+    [
+        ['1', '--cue', '2', '180'],
+        ['1', '--spin', '0', '0', '1'],
+        ['--spin', '0', '0', '1'],
+        ['1', '--side', '0.1'],
+        ['--velocity', '1', '0', '--above', '0.1'],
+    ],
+)
+def test_what_does_not_go_together_is_wrong_usage(capsys, words):
+    with pytest.raises(SystemExit) as error:
+        parse(*words)
+    assert error.value.code == 2 and 'shot: error: ' in capsys.readouterr().err
 
 
 @pytest.mark.parametrize('words', [['1'], ['4'], ['--velocity', '-1e-1', '0']])

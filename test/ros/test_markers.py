@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from visualization_msgs.msg import Marker
 
-from pool_sim_ros.physics import report_table, simulate
+from pool_sim_ros.physics import cue_strike, pool_table, report_table, simulate
 from pool_sim_ros.ros.markers import Markers
 from pool_sim_ros.simulator.frame import COLLISION_COLUMNS
 from pool_sim_ros.simulator.layout import start_layout
@@ -212,3 +212,90 @@ def test_no_viewer_is_sent_lines_without_points():
         assert viewer.count('trails') == (not started)
         viewer.take(markers.everything(positions))
         assert viewer.count('trails') == (not started)
+
+
+@pytest.fixture(scope='module')
+def pool():
+    """A table whose balls spin, and the frames of a break that loses the cue ball."""
+    table = pool_table('7ft')
+    velocity, spin = cue_strike(table, speed=9.0, azimuth=180.3, side=0.1, above=0.2)
+    playback = Playback(start_layout(table), 60)
+    playback.strike()
+    playback.computed(simulate(table, velocity, spins=spin))
+    frames = [playback.next_frame()]
+    while not frames[-1].finished:
+        frames.append(playback.next_frame())
+    return table, frames
+
+
+def shown(pool):
+    """Yield each frame of a break, and what a viewer shows then."""
+    table, frames = pool
+    markers, viewer = Markers(table, 'table'), Viewer()
+    start = start_layout(table)
+    viewer.take(markers.everything(start.positions, start.orientations))
+    for frame in frames:
+        changes = markers.changes(
+            frame.positions,
+            frame.collisions,
+            started=frame.started,
+            rolling=True,
+            turned=frame.orientations,
+            pocketed=frame.pocketed,
+        )
+        yield frame, viewer if changes is None else viewer.take(changes)
+
+
+def test_balls_that_spin_turn_with_their_spots_and_fall_below_the_cloth(pool):
+    table, frames = pool
+    for frame, viewer in shown(pool):
+        if frame.tick % 10 and not frame.finished:
+            continue
+        for i, ball in enumerate(table.balls):
+            marker, spots = viewer.shown['balls', i], viewer.shown['spots', i]
+            label = viewer.shown['labels', i]
+            height = -ball.radius if i in frame.pocketed else ball.radius
+            assert place(marker) == place(spots) == (*frame.positions[i], height)
+            q = spots.pose.orientation
+            assert [q.x, q.y, q.z, q.w] == frame.orientations[i].tolist()
+            assert place(label)[2] - height == pytest.approx(1.7 * ball.radius)
+    assert len(frames[-1].pocketed) == 2
+    points = np.array([[p.x, p.y, p.z] for p in spots.points])
+    out = np.linalg.norm(points, axis=1) + spots.scale.x / 2
+    assert np.all((ball.radius < out) & (out < 1.1 * ball.radius))  # they are seen on it
+
+
+def test_a_spot_is_light_on_a_dark_ball_and_dark_on_a_light_one(pool):
+    table, _ = pool
+    found = by_name(Markers(table, 'table').everything(table.positions))
+    light = {table.labels[i]: found['spots', i].color.r for i in range(len(table.balls))}
+    assert light['C'] == 0.0 and light['8'] == 1.0
+
+
+def test_trails_follow_paths_that_curve_into_the_pockets_with_few_lines(pool):
+    table, frames = pool
+    *_, (_, viewer) = shown(pool)
+    trails = viewer.shown['trails', 0]
+    assert len(trails.points) < 2000
+    ends = np.array([[p.x, p.y] for p in trails.points]).reshape(-1, 2, 2)
+    colors = np.array([[c.r, c.g, c.b] for c in trails.colors]).reshape(-1, 2, 3)[:, 0]
+    mine = ends[np.all(colors == np.float32(table.balls[0].color), axis=1)]  # no other is white
+    places = np.array([frame.positions[0] for frame in frames])
+    for x, y in places[::7]:
+        along = mine[:, 1] - mine[:, 0]
+        lengths = np.maximum(np.sum(along**2, axis=1), 1e-18)
+        share = np.clip(np.sum(([x, y] - mine[:, 0]) * along, axis=1) / lengths, 0.0, 1.0)
+        nearest = mine[:, 0] + share[:, np.newaxis] * along
+        assert np.hypot(*(nearest - [x, y]).T).min() < 2e-3
+
+
+def test_one_message_holds_pockets_and_spots(pool):
+    table, _ = pool
+    viewer = Viewer().take(Markers(table, 'table').everything(table.positions))
+    counts = {ns: viewer.count(ns) for ns in ('pockets', 'rails', 'spots', 'balls', 'labels')}
+    assert counts == {'pockets': 6, 'rails': 18, 'spots': 16, 'balls': 16, 'labels': 16}
+
+
+def test_discs_have_neither_spots_nor_pockets():
+    viewer = Viewer().take(Markers(TABLE, 'table').everything(TABLE.positions))
+    assert {ns for ns, _ in viewer.shown} == {'table', 'cushions', 'balls', 'labels'}

@@ -172,6 +172,7 @@ def test_a_late_client_finds_the_state_the_table_and_the_past_responses(ros):
     assert table_from_json(late.heard['table'][0].data) == report_table()
     ros.spin_until(lambda: late.heard['state'], 'the state')
     assert set(late.state) == {
+        'pocketed',
         'paused',
         'moving',
         'computing',

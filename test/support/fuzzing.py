@@ -361,6 +361,15 @@ class Fuzzer:
             fields['velocity'] = self._choose.choice(
                 ([x, y], [x, y], [x, y], [x], x, [x, None], [])
             )
+        if self._choose.random() < 0.2:
+            spin = [self._speed() for _ in range(3)]
+            fields['spin'] = self._choose.choice((spin, spin[:2], [*spin[:2], '1'], None))
+        if self._choose.random() < 0.2:
+            cue = {'speed': self._speed(), 'azimuth': self._speed(), 'side': self._seldom()}
+            fields['cue'] = self._choose.choice((cue, {**cue, 'x': 1}, {'speed': 1.0}, [1.0], '1'))
+        if self._choose.random() < 0.2:
+            place = {'9': [abs(self._speed()), 0.5], 'C': [1.6, abs(self._seldom())]}
+            fields['place'] = self._choose.choice((place, {'x': [1.0, 0.5]}, {'9': [1.0]}, {}, [9]))
         if self._choose.random() < 0.05:
             fields[self._choose.choice(TEXTS)] = 1
         return json.dumps(fields)
