@@ -105,7 +105,7 @@ def test_ctrl_c_is_one_clear_line(domain):
         with Process('cli.shot', *STRIKE_OTHER, *PATIENT) as shot:
             shot.wait_for('accepted')
             shot.interrupt()
-            assert shot.wait() == 130
+            assert shot.wait() == 130, shot.stderr
             assert shot.stderr.count('\n') == 1
 
 
