@@ -34,9 +34,8 @@ define VERSIONS
 	@$(1) -m pip --disable-pip-version-check list --format=freeze | tr '\n' ' ' | fold -s -w 110
 	@echo
 endef
-# Test modules run side by side, each in one process and in its order; 0: all in this one. One more
-# than there are cores: many tests wait.
-JOBS ?= 3
+# Test modules run side by side, each in one process and in its order; 0: all in this one.
+JOBS ?= 2
 OLDEST_PYTHON ?= $(firstword $(wildcard $(or $(PYENV_ROOT),$(HOME)/.pyenv)/versions/3.10*/bin/python) \
 	$(shell python3.10 -c 'print("python3.10")' 2>/dev/null))
 OLDEST_TESTS = pytest hypothesis mpmath
