@@ -12,13 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.jit import inlined
-from pool_sim_ros.physics.motion import RESTS
+from pool_sim_ros.physics.motion import N_ROWS, RESTS
 
 X, Y, RADIUS, DISTANCE = 0, 1, 2, 3
 """Rows of `FewBalls.rows`."""
-
-N_ROWS = 12
-"""With those that `motion.keep_path` writes."""
 
 
 class FewBalls(NamedTuple):

@@ -10,6 +10,7 @@ from pool_sim_ros.physics.jit import register
 from pool_sim_ros.physics.motion import ball, disc, seam
 from pool_sim_ros.physics.motion.ball_record import BALL, BallTable, spheres_at_rest
 from pool_sim_ros.physics.motion.disc_record import DISC, DiscTable, discs_at_rest
+from pool_sim_ros.physics.motion.moving_balls import N_ROWS
 from pool_sim_ros.physics.motion.phase import MOVES, RESTS, ROLLS, SLIDES
 from pool_sim_ros.physics.motion.seam import (
     acceleration,
@@ -44,6 +45,7 @@ __all__ = [
     'BALL',
     'DISC',
     'MOVES',
+    'N_ROWS',
     'RESTS',
     'ROLLS',
     'SLIDES',

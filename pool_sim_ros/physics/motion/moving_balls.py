@@ -23,6 +23,9 @@ PATH = 4
 SINCE, ENDS = 6, 7
 """The last two of them, counted from there."""
 
+N_ROWS = PATH + ENDS + 1
+"""How many rows there are."""
+
 
 @inlined
 def keep_in_rows(ball: Record, rows: NDArray[np.float64], i: int) -> None:

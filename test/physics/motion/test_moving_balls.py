@@ -7,10 +7,14 @@ import pytest
 from numba import njit
 
 from pool_sim_ros.physics.contact_time import RelativeMotion, time_to_moving_ball
-from pool_sim_ros.physics.event_driven.few_balls import N_ROWS
 from pool_sim_ros.physics.motion.ball_record import BALL
 from pool_sim_ros.physics.motion.curved_path import CurvedPath
-from pool_sim_ros.physics.motion.moving_balls import MAY_MEET, keep_in_rows, mark_those_near
+from pool_sim_ros.physics.motion.moving_balls import (
+    MAY_MEET,
+    N_ROWS,
+    keep_in_rows,
+    mark_those_near,
+)
 
 RADIUS = 0.03
 
