@@ -15,6 +15,7 @@ from pool_sim_ros.console.output import (
     complain,
     guarded_output,
 )
+from pool_sim_ros.interrupts import kept_interrupts
 
 INTERRUPTED = 130
 """Exit status after Ctrl-C, as shells have it."""
@@ -74,7 +75,7 @@ def console_command(
         @functools.wraps(run)
         def main(args: list[str] | None = None) -> int:
             try:
-                with guarded_output():
+                with guarded_output(), kept_interrupts():
                     return attempt(sys.argv[1:] if args is None else args)
             except BrokenOutputError as error:
                 if error.unread:

@@ -1,7 +1,9 @@
 """How every command starts, fails and stops."""
 
+import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
@@ -59,6 +61,45 @@ def test_an_interrupt_has_the_status_of_shells_and_is_told_if_wanted(capsys):
     assert command(interrupted, interrupted='play_it: given up')([]) == INTERRUPTED
     assert capsys.readouterr() == ('', 'play_it: given up\n')
     assert command(interrupted, interrupt_status=0)([]) == 0
+
+
+class Interrupted:
+    """An interrupt arrives while it goes, as often as told."""
+
+    left = 0
+
+    def __del__(self):
+        if Interrupted.left:
+            Interrupted.left -= 1
+            signal.raise_signal(signal.SIGINT)
+            time.sleep(0)  # here Python raises it
+
+
+@pytest.mark.parametrize('times', [1, 3])
+def test_an_interrupt_that_cannot_be_raised_comes_again(capsys, times):
+    def run(args):
+        Interrupted.left = times
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            Interrupted()
+
+    before = sys.unraisablehook
+    try:
+        assert command(run, interrupted='play_it: given up')([]) == INTERRUPTED
+    finally:
+        sys.unraisablehook = before
+    assert (Interrupted.left, capsys.readouterr()) == (0, ('', 'play_it: given up\n'))
+
+
+def test_what_else_cannot_be_raised_is_told_as_ever(monkeypatch):
+    class Bad:
+        def __del__(self):
+            raise BadTableError
+
+    told = []
+    monkeypatch.setattr(sys, 'unraisablehook', lambda lost: told.append(lost.exc_type))
+    assert command(lambda args: Bad() and None)([]) == 0
+    assert told == [BadTableError]
 
 
 def test_wrong_usage_keeps_the_status_of_argparse():
