@@ -3,7 +3,6 @@
 The long versions run with `python -m pytest -m soak`.
 """
 
-import json
 import os
 import random
 import signal
@@ -11,8 +10,6 @@ import struct
 import subprocess
 import sys
 import time
-import uuid
-from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -22,11 +19,14 @@ from rclpy.serialization import deserialize_message, serialize_message
 from ros_harness import Observer, Ros
 from std_msgs.msg import String
 from survival import (
-    DECISIONS,
     FAST,
     Attacker,
     Listener,
+    an_hour,
+    flood,
+    in_mib,
     is_served,
+    is_unharmed,
     plays_as_printed,
     resident,
 )
@@ -50,41 +50,15 @@ sys.stdin.read()
 """
 
 
-def flood(observer, attacker, seconds, rate=5000):
-    """Send so many commands a second; return the ids of those that have one."""
-    ids, start, sent = [], time.monotonic(), 0
-    while (elapsed := time.monotonic() - start) < seconds:
-        while sent < elapsed * rate:
-            sent += 1
-            if sent % 2:
-                attacker.send('cue_velocity', Twist(linear=Vector3(x=random.uniform(-5, 5))))
-            else:
-                ids.append(uuid.uuid4().hex)
-                attacker.send(
-                    'shot/request',
-                    String(data=json.dumps({'id': ids[-1], 'shot': random.randint(1, 5)})),
-                )
-        observer._ros.executor.spin_once(0.0)
-    return ids
-
-
 def survives_a_flood(ros, observer, seconds):
-    flood(observer, Attacker(ros), seconds)
-    after = Observer(ros).wait_for_match()  # the other one has thousands of answers to look through
-    is_served(after)
-    after.call(interface.RESET)
-    is_served(after)
-    last = after.ask(shot=9)
-    observer.wait_for_phase(last, 'rejected')  # so it has heard all before
-    assert_answered_once(observer)
-
-
-def assert_answered_once(observer):
-    counts = Counter((r['id'], r['phase'] in DECISIONS) for r in observer.responses)
-    assert max(counts.values()) == 1
-    accepted = {r['id'] for r in observer.responses if r['phase'] == 'accepted'}
-    over = {r['id'] for r in observer.responses if r['phase'] in ('done', 'preempted')}
-    assert accepted == over
+    flood(
+        observer,
+        Attacker(ros),
+        seconds,
+        lambda: Twist(linear=Vector3(x=random.uniform(-5, 5))),
+        lambda: {'shot': random.randint(1, 5)},
+    )
+    is_unharmed(ros)
 
 
 @pytest.mark.soak
@@ -269,22 +243,10 @@ def test_soak_stopped_for_five_seconds(ros):
 @pytest.mark.soak
 def test_soak_an_hour_of_sim_time_takes_no_more_memory(ros, capsys):
     with node_process(report_integrator='event', real_time_factor=0.0) as process:
-        observer = HourObserver(ros).wait_for_match()
-        sizes, played = [], 0
-        while not sizes or observer.state['sim_time'] < 3600.0:
-            done = observer.wait_for_phase(observer.ask(shot=1 + played % 4), 'done')
-            played += 1
-            if done['t_end'] > 360.0 * (len(sizes) + 1):
-                sizes.append(resident(process))
-            observer.responses.clear()
-            for heard in observer.heard.values():
-                del heard[:-1]
+        observer = Listener(ros).wait_for_match()
+        sizes = an_hour(observer, process, lambda played: {'shot': 1 + played % 4})
         with capsys.disabled():
-            print(f'\n{played} shots; MiB each tenth: {[round(s / 2**20, 1) for s in sizes]}')
+            print(f'\nMiB each tenth: {in_mib(sizes)}')
         assert sizes[-1] - sizes[1] < 2**20 * 5
         plays_as_printed_by_event = observer.ask(shot=1)
         observer.wait_for_phase(plays_as_printed_by_event, 'done')
-
-
-class HourObserver(Observer):
-    TOPICS = (interface.SHOT_RESPONSE, interface.STATE, interface.TABLE)

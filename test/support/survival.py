@@ -1,9 +1,14 @@
 """Attack a node, and see whether it still plays as printed."""
 
+import json
 import os
+import time
+import uuid
+from collections import Counter
 from pathlib import Path
 
 from ros_harness import Observer
+from std_msgs.msg import String
 
 from pool_sim_ros.me212.log import published_final_positions
 from pool_sim_ros.ros import interface
@@ -76,3 +81,55 @@ def plays_as_printed(observer):
 def is_served(observer):
     asked = observer.ask(shot=9)
     assert observer.wait_for_phase(asked, 'rejected')['code'] == 'UNKNOWN_SHOT'
+
+
+def an_hour(observer, process, request, reset=False):
+    """Play shots for an hour of sim time; return the memory of the node after each tenth of it.
+
+    `request` makes the fields of a request from how many shots were played; `reset` tells whether
+    the balls go back before each.
+    """
+    sizes, played = [], 0
+    while len(sizes) < 10:
+        if reset:
+            observer.call(interface.RESET)
+        done = observer.wait_for_phase(observer.ask(**request(played)), 'done')
+        played += 1
+        if done['t_end'] > 360.0 * (len(sizes) + 1):
+            sizes.append(resident(process))
+        observer.forget()
+    return sizes
+
+
+def in_mib(sizes):
+    return [round(size / 2**20, 1) for size in sizes]
+
+
+def flood(observer, attacker, seconds, strike, request, rate=5000):
+    """Send so many commands a second: by turns what `strike` and `request` make."""
+    start, sent = time.monotonic(), 0
+    while (elapsed := time.monotonic() - start) < seconds:
+        while sent < elapsed * rate:
+            sent += 1
+            if sent % 2:
+                attacker.send('cue_velocity', strike())
+            else:
+                fields = {'id': uuid.uuid4().hex, **request()}
+                attacker.send('shot/request', String(data=json.dumps(fields)))
+        observer._ros.executor.spin_once(0.0)
+    return sent
+
+
+def is_unharmed(ros):
+    """After a flood: it is served again, also after a reset, and each request had one answer."""
+    observer = Observer(ros).wait_for_match()  # who heard the flood has thousands to look through
+    is_served(observer)
+    observer.call(interface.RESET)
+    is_served(observer)
+    last = observer.ask(shot=9)
+    observer.wait_for_phase(last, 'rejected')  # so it has heard all before
+    counts = Counter((r['id'], r['phase'] in DECISIONS) for r in observer.responses)
+    assert max(counts.values()) == 1
+    accepted = {r['id'] for r in observer.responses if r['phase'] == 'accepted'}
+    over = {r['id'] for r in observer.responses if r['phase'] in ('done', 'preempted')}
+    assert accepted == over
