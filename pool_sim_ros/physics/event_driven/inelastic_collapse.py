@@ -90,20 +90,24 @@ def least_when_pressed(presses: int) -> float:
 
 
 @inlined
-def kept_counts(balls: NDArray[np.void], a: int, b: int) -> tuple[int, int]:
-    """Return the larger ones of the counts that `keep_counts` keeps in a ball and its partner."""
-    if b < 0:
-        return balls[a].repeats, balls[a].presses
-    return max(balls[a].repeats, balls[b].repeats), max(balls[a].presses, balls[b].presses)
-
-
-@inlined
 def keep_counts(balls: NDArray[np.void], a: int, b: int, repeats: int, presses: int) -> None:
     """Keep how often a contact was weak, where it was."""
     if repeats >= 0:
         balls[a].repeats, balls[a].presses = repeats, presses
         if b >= 0:
             balls[b].repeats, balls[b].presses = repeats, presses
+
+
+@inlined
+def raise_counts(balls: NDArray[np.void], i: int, repeats: int, presses: int) -> None:
+    """Raise what `keep_counts` keeps in a ball to the counts of one more contact of it.
+
+    Those of its own contacts alone: what a neighbour keeps would go on from contact to contact,
+    as far as their order lets it.
+    """
+    if repeats >= 0:
+        balls[i].repeats = max(balls[i].repeats, repeats)
+        balls[i].presses = max(balls[i].presses, presses)
 
 
 @chosen_by('table')

@@ -17,7 +17,7 @@ from pool_sim_ros.physics.event_driven.inelastic_collapse import (
     count_round,
     is_pressed,
     keep_counts,
-    kept_counts,
+    raise_counts,
     rounds_at,
     rounds_of,
     separation_speed,
@@ -239,10 +239,9 @@ def want_separation(state: State, count: int, rounds: int, now: float) -> None:
         keep_counts(balls, one.a, one.b, min(one.repeats, 0), 0)
     for c in range(count):
         one = group.contacts[c]
-        if one.repeats >= 0:
-            repeats, presses = kept_counts(balls, one.a, one.b)
-            repeats, presses = max(repeats, one.repeats), max(presses, one.presses)
-            keep_counts(balls, one.a, one.b, repeats, presses)
+        raise_counts(balls, one.a, one.repeats, one.presses)
+        if one.b >= 0:
+            raise_counts(balls, one.b, one.repeats, one.presses)
 
 
 @inlined

@@ -1,5 +1,6 @@
 """What is due is resolved, alone or with all that touches, as the plain twin has it."""
 
+import itertools
 import math
 
 import naive_events
@@ -188,3 +189,16 @@ def test_a_contact_that_parts_already_pushes_nobody():
     found = velocities_of(state)
     assert np.abs(found - velocities).max() < 1e-10
     assert found[1, 0] - found[0, 0] > 0.0
+
+
+@pytest.mark.parametrize('order', list(itertools.permutations(range(4))))
+def test_a_ball_keeps_the_counts_of_its_own_weak_contacts(order):
+    """One more than the larger count of each contact's two balls, in whatever order they are."""
+    before = [0, 60, 0, 0]
+    kept = [61, 61, 61, 1]
+    table = table_of([(0.5 + 0.1 * k, 0.5) for k in order])
+    state = moving(table, [(1.0 - 0.1 * V_MIN * k, 0.0) for k in order])
+    state.balls['presses'] = [before[k] for k in order]
+    state.balls['last_contact_time'] = -0.5 * PRESS_WINDOW
+    assert met(with_log(state), order.index(1), order.index(2)) == 4
+    assert state.balls['presses'].tolist() == [kept[k] for k in order]
