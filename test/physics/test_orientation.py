@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from spin_tables import spin_table
 from tables import table_of
+from thinned import soak
 
 from pool_sim_ros.physics import cue_strike, pool_table, simulate
 from pool_sim_ros.physics.orientation import unit_quaternions
@@ -66,7 +67,7 @@ STROKES = {
 }
 
 
-@pytest.mark.parametrize('stroke', STROKES)
+@pytest.mark.parametrize('stroke', ['side', 'masse', *soak('stun', 'draw')])
 def test_a_slide_beside_quadrature(stroke):
     """While slip turns the axis there is no formula; the bound is 1e-6 rad a shot."""
     table = spin_table([(50.0, 50.0)], **FAR)

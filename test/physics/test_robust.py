@@ -15,6 +15,7 @@ from tables import (
     table_of,
     under,
 )
+from thinned import every, soak
 
 from pool_sim_ros.physics import (
     Ball,
@@ -75,9 +76,9 @@ def rack(rows, gap, radius=0.0285):
     ]
 
 
-@pytest.mark.parametrize('speed', [1.0, 4.0, 10.0])
-@pytest.mark.parametrize('gap', [0.0, 1e-12, 1e-9, 1e-6, 1e-4])
-@pytest.mark.parametrize('rows', [4, 5])
+@pytest.mark.parametrize(
+    ('rows', 'gap', 'speed'), every(2, [4, 5], [0.0, 1e-12, 1e-9, 1e-6, 1e-4], [1.0, 4.0, 10.0])
+)
 def test_racks(rows, gap, speed):
     for off in (0.0, 0.02):
         places = [(0.5, 0.6 + off), *rack(rows, gap)]
@@ -185,9 +186,11 @@ def test_a_ball_that_a_collision_stops_dead_is_in_the_way():
 @pytest.mark.parametrize(
     'velocity',  # found among a million random shots
     [
-        (-4.822651705627597, -3.1604251295734396),
-        (-3.898047371511313, 0.4151587704491879),
         (-3.9706859238996057, 0.4230753827606785),
+        *soak(
+            [-4.822651705627597, -3.1604251295734396],
+            [-3.898047371511313, 0.4151587704491879],
+        ),
     ],
 )
 def test_inelastic_collapse_on_the_report_table(velocity):

@@ -186,27 +186,41 @@ def test_the_integrator_can_be_chosen(tmp_path):
     assert 'not of this run' in out
 
 
-@pytest.mark.parametrize(
-    ('args', 'status', 'words'),
-    [
-        (['--out', '/proc/report'], 1, 'cannot write /proc/report/output.log: '),
-        (['--out', '/dev/null'], 1, '/dev/null is not a folder'),
-        (['--table', 'none.yaml'], 1, 'cannot read none.yaml: No such file or directory'),
-        (['--shots', '5'], 2, 'invalid choice: 5'),
-        (['--out', ''], 2, 'argument --out: the name is empty'),
-        (['--table', ''], 2, 'argument --table: the name is empty'),
-        (['--shots'], 2, 'expected at least one argument'),
-        (['--integrator', 'euler'], 2, "invalid choice: 'euler'"),
-        (['extra'], 2, 'unrecognized arguments: extra'),
-    ],
-)
-def test_mistakes_are_told_in_one_line(tmp_path, args, status, words):
-    ended, out, err = run(*args, '--log-only', cwd=tmp_path)
+MISTAKES = [
+    (['--out', '/proc/report'], 1, 'cannot write /proc/report/output.log: '),
+    (['--out', '/dev/null'], 1, '/dev/null is not a folder'),
+    (['--table', 'none.yaml'], 1, 'cannot read none.yaml: No such file or directory'),
+    (['--shots', '5'], 2, 'invalid choice: 5'),
+    (['--out', ''], 2, 'argument --out: the name is empty'),
+    (['--table', ''], 2, 'argument --table: the name is empty'),
+    (['--shots'], 2, 'expected at least one argument'),
+    (['--integrator', 'euler'], 2, "invalid choice: 'euler'"),
+    (['extra'], 2, 'unrecognized arguments: extra'),
+]
+
+
+@pytest.mark.parametrize(('args', 'status', 'words'), MISTAKES)
+def test_mistakes_are_told_in_one_line(tmp_path, monkeypatch, capsys, args, status, words):
+    monkeypatch.chdir(tmp_path)
+    try:
+        ended = command.main([*args, '--log-only'])
+    except SystemExit as end:
+        ended = end.code
+    assert_told(tmp_path, (ended, *capsys.readouterr()), status, words)
+
+
+@pytest.mark.parametrize(('args', 'status', 'words'), MISTAKES[2:4])
+def test_so_are_they_to_a_user(tmp_path, args, status, words):
+    assert_told(tmp_path, run(*args, '--log-only', cwd=tmp_path), status, words)
+
+
+def assert_told(folder, found, status, words):
+    ended, out, err = found
     assert (ended, out) == (status, '')
     assert words in err.splitlines()[-1]
     assert 'Traceback' not in err
     assert status == 2 or len(err.splitlines()) == 1
-    assert all_files(tmp_path) == []
+    assert all_files(folder) == []
 
 
 def test_a_full_disk_is_told_in_one_line_and_leaves_nothing_half_written(tmp_path):

@@ -16,7 +16,7 @@ from pool_sim_ros.ros.client import IDLE_STATES
 from pool_sim_ros.simulator import Phase, Response, read_log, table_from_json
 
 PATIENCE = 60.0
-FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
+FAST = {'report_integrator': 'event', 'real_time_factor': 4.0}
 
 
 @pytest.fixture

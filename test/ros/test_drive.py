@@ -14,7 +14,7 @@ from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.simulator import build_settings, values_from
 from pool_sim_ros.simulator.table_json import table_from_json
 
-FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
+FAST = {'report_integrator': 'event', 'real_time_factor': 4.0}
 START = report_table().positions
 
 
@@ -92,7 +92,7 @@ def with_ball(index, place):
     ids=['overlap', 'outside', 'nan', 'infinite', 'too few', 'none', 'too many'],
 )
 def test_what_is_no_layout_is_rejected_naming_the_ball(ros, places, words):
-    ros.sim_node(**FAST)
+    ros.sim_node()
     observer = Observer(ros).wait_for_match()
     placer = Placer(ros, observer)
     placer.place(places)
@@ -103,7 +103,7 @@ def test_what_is_no_layout_is_rejected_naming_the_ball(ros, places, words):
 
 
 def test_a_layout_in_another_frame_is_rejected_with_a_line_and_one_in_ours_is_not(ros, capfd):
-    ros.sim_node(**FAST, frame_id='cloth')
+    ros.sim_node(frame_id='cloth')
     observer = Observer(ros).wait_for_match()
     placer = Placer(ros, observer)
     there = START * [1.0, 0.98]

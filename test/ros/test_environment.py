@@ -6,6 +6,7 @@ import sys
 
 import pytest
 from bounded_process import assert_one_line, run_bounded
+from thinned import every, soak
 
 from pool_sim_ros.ros import environment
 from pool_sim_ros.ros.environment import (
@@ -129,23 +130,28 @@ SHOT = ('cli.shot', '1', '--timeout', '1')
 SECURE = {'ROS_SECURITY_ENABLE': 'true', 'ROS_SECURITY_STRATEGY': 'Enforce'}
 
 
-@pytest.mark.parametrize('command', [SHOT, ('cli.sim_node',), ('web_view', '--port', '0')])
+COMMANDS = [SHOT, ('cli.sim_node',), ('web_view', '--port', '0')]
+FAULTS = [
+    ({'HOME': None}, ['HOME is not set']),
+    ({'ROS_LOG_DIR': '/proc/nowhere'}, ['/proc/nowhere', 'ROS_LOG_DIR']),
+    ({'ROS_DOMAIN_ID': 'abc'}, ['ROS_DOMAIN_ID', "'abc'"]),
+    ({'ROS_DOMAIN_ID': '500'}, ['ROS_DOMAIN_ID', '232', "'500'"]),
+    ({'RCUTILS_COLORIZED_OUTPUT': 'x'}, ['RCUTILS_COLORIZED_OUTPUT']),
+    ({'RMW_IMPLEMENTATION': 'rmw_nothing_cpp'}, ['RMW_IMPLEMENTATION', 'rmw_nothing_cpp']),
+    (SECURE, ['ROS_SECURITY_KEYSTORE']),
+    (SECURE | {'ROS_SECURITY_KEYSTORE': '/nowhere'}, ['SECURITY', '/nowhere/enclaves']),
+    ({'ROS_STATIC_PEERS': 'no such host'}, ['cannot make a node', 'no such host']),
+]
+
+
 @pytest.mark.parametrize(
-    ('environment', 'words'),
-    [
-        ({'HOME': None}, ['HOME is not set']),
-        ({'ROS_LOG_DIR': '/proc/nowhere'}, ['/proc/nowhere', 'ROS_LOG_DIR']),
-        ({'ROS_DOMAIN_ID': 'abc'}, ['ROS_DOMAIN_ID', "'abc'"]),
-        ({'ROS_DOMAIN_ID': '500'}, ['ROS_DOMAIN_ID', '232', "'500'"]),
-        ({'RCUTILS_COLORIZED_OUTPUT': 'x'}, ['RCUTILS_COLORIZED_OUTPUT']),
-        ({'RMW_IMPLEMENTATION': 'rmw_nothing_cpp'}, ['RMW_IMPLEMENTATION', 'rmw_nothing_cpp']),
-        (SECURE, ['ROS_SECURITY_KEYSTORE']),
-        (SECURE | {'ROS_SECURITY_KEYSTORE': '/nowhere'}, ['SECURITY', '/nowhere/enclaves']),
-        ({'ROS_STATIC_PEERS': 'no such host'}, ['cannot make a node', 'no such host']),
-    ],
-    ids=lambda value: ' '.join(value)[:40] if isinstance(value, dict) else '',
+    ('fault', 'command'),
+    every(3, FAULTS, COMMANDS),
+    ids=lambda value: ' '.join(value[0])[:40] if isinstance(value[0], dict) else value[0],
 )
-def test_a_command_says_in_one_line_why_ros_cannot_start(domain, command, environment, words):
+def test_a_command_says_in_one_line_why_ros_cannot_start(domain, fault, command):
+    """Each fault with one of the commands; with all of them in the soak."""
+    environment, words = fault
     process = run_bounded(*command, **environment)
     assert_one_line(process, (1, 2), *words)
     assert 'arguments' not in process.stderr and 'Traceback' not in process.stderr
@@ -166,15 +172,17 @@ def test_security_that_the_middleware_has_not_is_told(domain, tmp_path):
 @pytest.mark.parametrize(
     ('text', 'words'),
     [
-        ('a: &a [1.0]\nb: *a', 'alias'),
         ('a: &a [*a]', 'alias'),
         ('time_slice: ' + '9' * 400, 'time_slice'),
-        ('time_slice: true', 'time_slice'),
-        ('a: ' + '[' * 200_000, 'deeply'),
         ('a: ' + '{b: ' * 200_000, 'deeply'),
-        ('a: [' + '1.5, ' * 500_000 + '1.5]', 'commas'),
         ('table: {length: [true]}', 'table.length'),
         ('\0', 'cannot be read'),
+        *soak(
+            ('a: &a [1.0]\nb: *a', 'alias'),
+            ('time_slice: true', 'time_slice'),
+            ('a: ' + '[' * 200_000, 'deeply'),
+            ('a: [' + '1.5, ' * 500_000 + '1.5]', 'commas'),
+        ),
     ],
     ids=lambda value: repr(value)[:20],
 )

@@ -1,4 +1,7 @@
-"""Garbage, and whatever can be sent, done to one node, which then still plays as printed."""
+"""Garbage, and whatever can be sent, done to one node, which then still plays as printed.
+
+Every parameter gets some of the values here, and all of them in the soak: `-m soak`.
+"""
 
 import json
 import struct
@@ -14,9 +17,10 @@ from process_harness import node_process
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
-from ros_harness import Observer, Ros
+from ros_harness import Ros
 from std_msgs.msg import String
-from survival import DECISIONS, FAST, Attacker, is_served, plays_as_printed
+from survival import DECISIONS, FAST, Attacker, Listener, is_served, plays_as_printed
+from thinned import every, soak
 
 from pool_sim_ros.ros import interface
 from pool_sim_ros.simulator import PARAMETERS, parameters_of
@@ -26,7 +30,7 @@ from pool_sim_ros.simulator import PARAMETERS, parameters_of
 def victim(domain):
     """A node that all fuzzing is done to, and who does it."""
     with Ros(domain) as ros, node_process(**FAST):
-        observer = Observer(ros).wait_for_match()
+        observer = Listener(ros).wait_for_match()
         yield observer, Attacker(ros)
         plays_as_printed(observer)
 
@@ -81,7 +85,7 @@ def test_no_message_at_all_ends_nothing(victim, name, data):
     is_served(observer)
 
 
-@pytest.mark.parametrize('seed', range(3))
+@pytest.mark.parametrize('seed', [0, *soak(1, 2)])
 def test_garbage_in_place_of_requests_to_services_ends_nothing(victim, seed):
     observer, _ = victim
     sender = garbage_sender(seed)
@@ -134,11 +138,13 @@ def test_any_message_is_answered_and_ends_nothing(victim, messages):
     is_served(observer)
 
 
-@pytest.mark.parametrize('name', sorted(parameters_of('disc')))
+VALUES = [float('nan'), float('inf'), -1.0, 0, 2**63 - 1, 'x' * 10_000, '', [], [1.5], True]
+
+
 @pytest.mark.parametrize(
-    'value',
-    [float('nan'), float('inf'), -1.0, 0, 2**63 - 1, 'x' * 10_000, '', [], [1.5], True],
-    ids=lambda value: repr(value)[:12],
+    ('name', 'value'),
+    every(3, sorted(parameters_of('disc')), VALUES),
+    ids=lambda value: f'{value!r:.12}',
 )
 def test_no_parameter_value_ends_anything(victim, name, value):
     observer, _ = victim

@@ -19,7 +19,7 @@ from pool_sim_ros.physics import report_table
 from pool_sim_ros.ros import interface
 from pool_sim_ros.simulator import Change, parameters_of
 
-SHORT = 10.0  # s
+SHORT = 5.0  # s
 CHECK_PERIOD = 2.0  # s
 MOST_GROWTH = 500 * 2**20
 """Bytes that a node may grow by: a shot of 100,000 events and some commands of 8 MB have room."""

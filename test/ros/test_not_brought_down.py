@@ -70,7 +70,7 @@ def test_a_flood_of_commands(ros):
 
 def test_readers_that_come_and_go(ros, domain):
     with node_process(**FAST):
-        observer = Observer(ros).wait_for_match()
+        observer = Listener(ros).wait_for_match()
         asked = observer.ask(shot=1)
         for _ in range(10):
             with Ros(domain) as other:
@@ -106,15 +106,15 @@ def test_a_reader_that_stops_reading(ros):
 
 def test_a_second_node_of_the_same_name(ros):
     with node_process(**FAST):
-        observer = Observer(ros).wait_for_match()
+        observer = Listener(ros).wait_for_match()
         with node_process(**FAST):
-            both = Observer(ros).wait_for_match()
+            both = Listener(ros).wait_for_match()
             asked = both.ask(shot=3)
             ros.spin_until(lambda: both.phases(asked).count('done') >= 1, 'an end')
         ros.spin_until(
             lambda: observer.node.count_publishers('/pool_sim/state') == 1, 'the second to go'
         )
-        plays_as_printed(Observer(ros).wait_for_match())
+        plays_as_printed(Listener(ros).wait_for_match())
 
 
 def stop_and_continue(ros, seconds):
@@ -212,7 +212,7 @@ def test_killed_and_restarted_while_a_client_waits(domain):
             assert client.stderr.count('\n') == 1 and 'Traceback' not in client.stderr
             assert 'restarted' in client.stderr or 'silent' in client.stderr
             assert 'C:' not in client.stdout
-            observer = Observer(ros).wait_for_match()
+            observer = Listener(ros).wait_for_match()
             assert [r['phase'] for r in observer.responses] == []
             plays_as_printed(observer)
             assert fresh.stderr.count('Traceback') == 0

@@ -21,7 +21,7 @@ from pool_sim_ros.simulator import ParameterError
 from pool_sim_ros.simulator.job import Job
 from pool_sim_ros.simulator.table_json import table_from_json
 
-FAST = {'report_integrator': 'event', 'real_time_factor': 10.0}
+FAST = {'report_integrator': 'event', 'real_time_factor': 4.0}
 
 
 def twist(x=0.0, y=0.0, z=0.0, angular_z=0.0):

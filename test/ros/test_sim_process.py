@@ -22,7 +22,8 @@ class Recording:
     """What was heard while the four report shots were played at real time, one after another."""
 
     def __init__(self, domain):
-        with Ros(domain) as ros, node_process('--ros-args', '--params-file', str(REPORT_YAML)):
+        file = str(REPORT_YAML)
+        with Ros(domain) as ros, node_process('--ros-args', '--params-file', file, anew=True):
             observer = Observer(ros).wait_for_match()
             self.done = {}
             self.accepted_at = {}

@@ -24,7 +24,7 @@ class Page:
         end = time.monotonic() + PATIENCE
         while not self.get(f'Boolean({script})'):
             assert time.monotonic() < end, f'waited {PATIENCE:g} s for {script}'
-            self.page.wait_for_timeout(10)
+            self.page.wait_for_timeout(30)  # each look costs the browser
 
     def text(self, element):
         return self.page.inner_text(f'#{element}')

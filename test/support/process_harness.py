@@ -7,6 +7,7 @@ import sys
 import threading
 from pathlib import Path
 
+from forked import Forked, can_fork
 from waiting import PATIENCE, wait_until
 
 
@@ -22,17 +23,16 @@ class Process:
             status = process._popen.poll()
             assert status is None, f'ended with status {status}:\n{process.stderr}'
 
-    def __init__(self, module, *args, stdout=subprocess.PIPE, prefix=(), env=None):
-        """Start a module of the package, or a file; through the command `prefix`, if any."""
-        command = [module] if isinstance(module, Path) else ['-m', f'pool_sim_ros.{module}']
-        self._popen = subprocess.Popen(
-            [*prefix, sys.executable, *command, *args],
-            stdout=stdout,
-            stderr=subprocess.PIPE,
-            stdin=subprocess.DEVNULL,
-            text=True,
-            env=_environment(module) | (env or {}),
-        )
+    def __init__(self, module, *args, stdout=subprocess.PIPE, prefix=(), env=None, anew=False):
+        """Start a module of the package, or a file; through the command `prefix`, if any.
+
+        `anew` is as a user starts it; else it is forked, see `starter`, where that is the same.
+        """
+        environment = _environment(module) | (env or {})
+        if anew or prefix or isinstance(module, Path) or not can_fork(environment):
+            self._popen = _start_anew(module, args, stdout, prefix, environment)
+        else:
+            self._popen = Forked(f'pool_sim_ros.{module}', args, stdout, environment)
         self._texts = {'stdout': [], 'stderr': []}
         self._readers = [
             threading.Thread(target=self._read, args=(name,), daemon=True)
@@ -101,10 +101,22 @@ class Process:
             self._running.remove(self)
 
 
-def start_node(*args, module='cli.sim_node', **parameters):
+def _start_anew(module, args, stdout, prefix, environment):
+    command = [module] if isinstance(module, Path) else ['-m', f'pool_sim_ros.{module}']
+    return subprocess.Popen(
+        [*prefix, sys.executable, *command, *args],
+        stdout=stdout,
+        stderr=subprocess.PIPE,
+        stdin=subprocess.DEVNULL,
+        text=True,
+        env=environment,
+    )
+
+
+def start_node(*args, module='cli.sim_node', anew=False, **parameters):
     """Start sim_node as a process of its own."""
     settings = [word for name, value in parameters.items() for word in ('-p', f'{name}:={value}')]
-    return Process(module, *args, '--ros-args', *settings)
+    return Process(module, *args, '--ros-args', *settings, anew=anew)
 
 
 def node_process(*args, **parameters):

@@ -16,7 +16,7 @@ TABLE = report_table()
 @pytest.fixture(scope='module')
 def site(domain):
     named = ['--ros-args', '-r', '__node:=aims']
-    with simulator(*named, real_time_factor=10.0), web_view('--node', 'aims') as site:
+    with simulator(*named, real_time_factor=4.0), web_view('--node', 'aims') as site:
         yield site
 
 

@@ -20,7 +20,7 @@ CUSHIONS = ('left', 'right', 'bottom', 'top')
 @pytest.fixture(scope='module')
 def site(domain):
     named = ['--ros-args', '-r', '__node:=shots']
-    with simulator(*named, real_time_factor=10.0), web_view('--node', 'shots') as site:
+    with simulator(*named, real_time_factor=4.0), web_view('--node', 'shots') as site:
         yield site
 
 

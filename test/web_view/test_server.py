@@ -16,6 +16,7 @@ aiohttp = pytest.importorskip('aiohttp', reason='pip install aiohttp')
 
 from plain_messages import to_collisions, to_poses  # noqa: E402
 from site_harness import simulator, talk, web_view  # noqa: E402
+from thinned import every  # noqa: E402
 from waiting import PATIENCE, wait_until  # noqa: E402
 from yarl import URL  # noqa: E402
 
@@ -323,24 +324,24 @@ def test_no_path_is_an_error_of_the_server(alone, path):
     assert 400 <= status < 500 or path.startswith(b'/?'), answer
 
 
+HEADERS = [
+    b'Origin: http://[\r\n',
+    b'Origin: \xff\r\n',
+    b'Origin: http://localhost:99999\r\n',
+    b'Upgrade: websocket\r\n',
+    b'Sec-WebSocket-Version: x\r\n',
+    b'Content-Length: -1\r\n',
+    b'Content-Length: 10\r\n',
+    b'Transfer-Encoding: chunked\r\n',
+    b'Range: bytes=9-1\r\n',
+    b'If-Modified-Since: never\r\n',
+    b'Cookie: ' + b'a' * 9000 + b'\r\n',
+]
+
+
 @pytest.mark.parametrize(
-    'more',
-    [
-        b'Origin: http://[\r\n',
-        b'Origin: \xff\r\n',
-        b'Origin: http://localhost:99999\r\n',
-        b'Upgrade: websocket\r\n',
-        b'Sec-WebSocket-Version: x\r\n',
-        b'Content-Length: -1\r\n',
-        b'Content-Length: 10\r\n',
-        b'Transfer-Encoding: chunked\r\n',
-        b'Range: bytes=9-1\r\n',
-        b'If-Modified-Since: never\r\n',
-        b'Cookie: ' + b'a' * 9000 + b'\r\n',
-    ],
-    ids=lambda more: repr(more[:30]),
+    ('path', 'more'), every(2, [b'/', b'/socket'], HEADERS), ids=lambda given: repr(given[:30])
 )
-@pytest.mark.parametrize('path', [b'/', b'/socket'])
 def test_no_header_is_an_error_of_the_server(alone, path, more):
     status, answer = ask(alone.address, request(path, more=more))
     assert 200 <= status < 500, answer
