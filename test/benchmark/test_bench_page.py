@@ -5,12 +5,14 @@ import time
 
 import chromium  # first: it skips all of this where there is no browser
 import numpy as np
+import pytest
 from benchmark.test_bench_node import processor_seconds
 from browser_page import DESKTOP, Page
 from site_harness import simulator, web_view
 
 SECTION = 'The page in the browser'
 ROUNDS, SECONDS = 3, 5.0
+POOL = {'table.preset': '7ft'}
 SMOOTH = {'table.mu_ball_surface': 0.01, 'report_integrator': 'event'}  # a shot lasts longer
 
 
@@ -43,10 +45,17 @@ def test_scrubbing_a_break(domain, results):
     results.note(SECTION, 'drawn while 16 balls are scrubbed, of 60 a second', rate, '55')
 
 
-def test_rolling_balls(domain, results):
+@pytest.mark.parametrize(
+    ('what', 'options', 'start'),
+    [
+        ('shot 1', SMOOTH, lambda page: page.press('1')),
+        ('a break on 7 feet', POOL, lambda page: (page.fill(strength='8'), page.shoot())),
+    ],
+)
+def test_rolling_balls(domain, results, what, options, start):
     rates, shares = [], []
     with (
-        simulator(**SMOOTH),
+        simulator(**options),
         web_view() as site,
         chromium.open_browser() as browser,
     ):
@@ -54,16 +63,18 @@ def test_rolling_balls(domain, results):
         page.page.goto(site.address)
         page.wait_for_rest()
         for _ in range(ROUNDS):
-            page.wait_for_rest()
-            page.press('1')
+            page.start_over()
+            start(page)
             page.wait('page.state.moving')
-            start, used, drawn = time.monotonic(), processor_seconds(site), page.get('page.drawn')
+            since, used, drawn = time.monotonic(), processor_seconds(site), page.get('page.drawn')
             page.page.wait_for_timeout(SECONDS * 1e3)
-            took = time.monotonic() - start
+            took = time.monotonic() - since
             shares.append((processor_seconds(site) - used) / took)
             rates.append((page.get('page.drawn') - drawn) / took)
             assert page.get('page.state.moving'), 'the shot is too short'
+            page.wait_for_rest()
     load = f'(load {os.getloadavg()[0]:.1f})'
     rate = f'{np.median(rates):.1f} frames a second {load}'
-    results.note(SECTION, 'drawn, of 60 a second', rate, '55')
-    results.note(SECTION, 'processor of its server', f'{np.median(shares):.1%} {load}', '5 %')
+    results.note(SECTION, f'{what}: drawn, of 60 a second', rate, '55')
+    share = f'{np.median(shares):.1%} {load}'
+    results.note(SECTION, f'{what}: processor of its server', share, '5 %')
