@@ -36,7 +36,7 @@ define VERSIONS
 endef
 # Test modules run side by side, each in one process and in its order; 0: all in this one.
 JOBS ?= 2
-# What `make cover` adds. It takes a tenth more processor time, so `make test` goes without.
+# What `make cover` adds. It takes about 15 % more processor time, so `make test` goes without.
 COVER =
 OLDEST_PYTHON ?= $(firstword $(wildcard $(or $(PYENV_ROOT),$(HOME)/.pyenv)/versions/3.10*/bin/python) \
 	$(shell python3.10 -c 'print("python3.10")' 2>/dev/null))

@@ -59,6 +59,7 @@ def test_a_session_is_replayed_with_the_same_bytes_on_the_topics(ros, tmp_path):
     with Process(
         'cli.replay', str(log), '--speed', '20', '--wait', '--ros-args', '-r', '__node:=replayed'
     ) as process:
+        process._forget()  # it may end before all that it has sent is heard
         ros.spin_until(
             lambda: (
                 again.heard['ball_poses'][-1:] == recorded['ball_poses'][-1:]

@@ -14,7 +14,7 @@ from pool_sim_ros.me212.log import format_position, format_shot_head
 from pool_sim_ros.physics import cue_strike, pool_table, report_table, simulate
 
 QUICK = {'real_time_factor': 5.0}
-"""A node sends each tick also at rest: at 20 it would keep a processor busy."""
+"""A node sends each tick also at rest, so a faster one takes processor time all along."""
 
 
 def other_simulator(real_time_factor=0.01):

@@ -14,7 +14,7 @@ from pool_sim_ros.me212.log import published_final_positions
 from pool_sim_ros.ros import interface
 
 FAST = {'real_time_factor': 5.0}
-"""A node sends each tick also at rest: at 20 it would keep a processor busy."""
+"""A node sends each tick also at rest, so a faster one takes processor time all along."""
 INPUTS = (interface.CUE_VELOCITY, interface.SHOT_REQUEST, interface.SET_BALL_POSES)
 DECISIONS = ('accepted', 'rejected')
 
