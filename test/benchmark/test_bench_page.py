@@ -46,13 +46,10 @@ def test_scrubbing_a_break(domain, results):
 
 
 @pytest.mark.parametrize(
-    ('what', 'options', 'start'),
-    [
-        ('shot 1', SMOOTH, lambda page: page.press('1')),
-        ('a break on 7 feet', POOL, lambda page: (page.fill(strength='8'), page.shoot())),
-    ],
+    ('what', 'options', 'strength'),
+    [("the report's balls", SMOOTH, '3'), ('a break on 7 feet', POOL, '8')],
 )
-def test_rolling_balls(domain, results, what, options, start):
+def test_rolling_balls(domain, results, what, options, strength):
     rates, shares = [], []
     with (
         simulator(**options),
@@ -64,7 +61,8 @@ def test_rolling_balls(domain, results, what, options, start):
         page.wait_for_rest()
         for _ in range(ROUNDS):
             page.start_over()
-            start(page)
+            page.fill(strength=strength)
+            page.page.click('#shoot')
             page.wait('page.state.moving')
             since, used, drawn = time.monotonic(), processor_seconds(site), page.get('page.drawn')
             page.page.wait_for_timeout(SECONDS * 1e3)
