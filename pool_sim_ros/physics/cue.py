@@ -94,9 +94,7 @@ def cue_strike(
     cue_mass = number('cue_mass', cue_mass, *MASSES)
     turn = (1.0, 0.0) if end_mass_ratio is None else _squirt(side, end_mass_ratio)
 
-    velocity, spin = _struck(
-        ball, cue_mass, speed, (forward, turn), (cosine, sine), (side, above)
-    )
+    velocity, spin = _struck(ball, cue_mass, speed, (forward, turn), (cosine, sine), (side, above))
     return np.array(velocity), np.array(spin)
 
 
