@@ -50,33 +50,33 @@ class Sweep:
         self.tips = space.tips
         low, high = space.speeds
         noise = np.maximum(trials.spread, FINEST)[:2]
-        size = shots // -(-shots // PASS)
-        # Half of the shots hit the middle, where there are other tips too.
-        others = len(self.tips) - 1
-        self.counts = [size] if others == 0 else [size // 2] + [size // 2 // others] * others
-        self.size = sum(self.counts)
         self.maps = []
-        for count in self.counts:
-            share = shots * count / self.size * 4.0 * np.pi * noise.prod() / ((high - low) * 360.0)
+        for count in self._shared(shots):
+            share = count * 4.0 * np.pi * noise.prod() / ((high - low) * 360.0)
             sd = noise * max(np.sqrt(SHARED / share), 1.0)
             self.maps.append(Map((low, high), np.minimum(sd, ((high - low) / 4.0, 15.0))))
         self.passes = self.met = 0
 
     def go_on(self, until: int, late: Callable[[], bool]) -> None:
-        """Play pass after pass while no more than so many shots are played, and it is not late."""
-        while (self.passes + 1) * self.size <= until:
-            for stratum in range(len(self.tips)):
-                self._play(stratum)
+        """Play pass after pass until so many shots are played, or it is late."""
+        while (left := until - sum(chart.count for chart in self.maps)) >= len(self.tips):
+            for stratum, count in enumerate(self._shared(min(PASS, left))):
+                self._play(stratum, count)
             self.passes += 1
             if late():
                 return
 
-    def _play(self, stratum: int) -> None:
-        count, chart = self.counts[stratum], self.maps[stratum]
-        trials = self.trials
+    def _shared(self, shots: int) -> list[int]:
+        """Share shots out to the tips: the middle gets half of them where there are others."""
+        others = len(self.tips) - 1
+        each = shots // 2 // others if others else 0
+        return [shots - others * each] + [each] * others
+
+    def _play(self, stratum: int, count: int) -> None:
+        chart, trials = self.maps[stratum], self.trials
         start = np.random.default_rng([self.seed, 1, stratum]).random(2)
         rng = np.random.default_rng([self.seed, 2, stratum, self.passes])
-        places = r2(self.passes * count, count, start)
+        places = r2(chart.count, count, start)
         aims = np.zeros((count, 5))
         aims[:, 3:] = self.tips[stratum]
         normals = rng.standard_normal((count, 5)) if trials.spread[2:].any() else np.zeros(5)
@@ -158,7 +158,9 @@ class Map:
         return (self.low, 0.0) + (places[order] + 0.5) * self.cell, found[order]
 
 
-def along(values: NDArray[np.float64], axis: int, weights: NDArray[np.float64]) -> NDArray[np.float64]:
+def along(
+    values: NDArray[np.float64], axis: int, weights: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Return values smoothed along an axis by symmetric weights, the first that of the middle."""
     reach = len(weights) - 1
     parts = list(shifts(values, axis, reach))
