@@ -8,7 +8,8 @@
     True
 
 `what_if` plays candidates. `find_shots` sweeps, races and climbs among aims, given how badly
-somebody shoots and sees. The room knows the physics alone: no ROS, no clock but for `seconds`.
+somebody shoots and sees; `error_budget` says how well one must. The room knows the physics alone:
+no ROS, no clock but for `seconds`.
 """
 
 from typing import TYPE_CHECKING
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING
 from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
+    from pool_sim_ros.oracle.budget import ErrorBudget, error_budget
     from pool_sim_ros.oracle.candidates import what_if
     from pool_sim_ros.oracle.goal import Goal
     from pool_sim_ros.oracle.noise import Noise
@@ -25,14 +27,26 @@ else:
     __getattr__ = lazy_exports(
         __name__,
         {
+            'ErrorBudget': 'budget',
             'Failure': 'plan',
             'Goal': 'goal',
             'Noise': 'noise',
             'Plan': 'plan',
             'RankedShot': 'plan',
+            'error_budget': 'budget',
             'find_shots': 'search',
             'what_if': 'candidates',
         },
     )
 
-__all__ = ['Failure', 'Goal', 'Noise', 'Plan', 'RankedShot', 'find_shots', 'what_if']
+__all__ = [
+    'ErrorBudget',
+    'Failure',
+    'Goal',
+    'Noise',
+    'Plan',
+    'RankedShot',
+    'error_budget',
+    'find_shots',
+    'what_if',
+]

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.oracle.assess import assess
+from pool_sim_ros.oracle.checks import checked_positions, time_allowed, whole
 from pool_sim_ros.oracle.climb import climb
 from pool_sim_ros.oracle.goal import Goal, goal_of
 from pool_sim_ros.oracle.noise import Noise, NoiseName, noise_of
@@ -177,36 +178,3 @@ def rank(
     order = np.argsort(-met.sum(axis=1), kind='stable')
     apart = DIFFERENT * np.maximum(trials.spread, FINEST)
     return aims[space.distinct(aims, order, count, apart)]
-
-
-def whole(name: str, value: object, least: int = 0) -> int:
-    """Return a whole number; raise ValueError, naming it, where it is none or too small."""
-    if isinstance(value, bool) or not hasattr(value, '__index__'):
-        raise ValueError(f'{name}: {value!r} is not a whole number')
-    number = int(value.__index__())
-    if not least <= number < 2**63:
-        raise ValueError(f'{name}: {number} must be at least {least} and below 2**63')
-    return number
-
-
-def time_allowed(seconds: Any) -> float:
-    """Return how long a search may take, s; raise ValueError for what is no such time."""
-    if seconds is None:
-        return np.inf
-    try:
-        allowed = float(seconds)
-    except (TypeError, ValueError):
-        raise ValueError(f'seconds: {seconds!r} is not a number') from None
-    if not allowed > 0.0:
-        raise ValueError(f'seconds: {allowed} must be above 0')
-    return allowed
-
-
-def checked_positions(table: Table, positions: ArrayLike | None) -> NDArray[np.float64]:
-    """Return where the balls lie, (n, 2) in m; raise ValueError for another shape."""
-    if positions is None:
-        return np.array(table.positions)
-    places = np.array(positions, dtype=float)
-    if places.shape != table.positions.shape:
-        raise ValueError(f'positions: shape {places.shape} must be {table.positions.shape}')
-    return places
