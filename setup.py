@@ -85,6 +85,7 @@ setup(
         'report': ['imageio-ffmpeg', 'latex2mathml', 'matplotlib', 'pyyaml', 'tqdm'],
         'web': ['aiohttp'],
         'record': ['rosbags'],
+        'fit': ['scipy'],
         'bench': ['pytest-benchmark', 'tqdm'],
         'test': [
             'catkin_pkg',

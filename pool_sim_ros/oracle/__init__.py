@@ -8,8 +8,8 @@
     True
 
 `what_if` plays candidates. `find_shots` sweeps, races and climbs among aims, given how badly
-somebody shoots and sees; `error_budget` says how well one must. The room knows the physics alone:
-no ROS, no clock but for `seconds`.
+somebody shoots and sees; `error_budget` says how well one must. `fit` finds the coefficients of
+a table from tracks. The room knows the physics alone: no ROS, no clock but for `seconds`.
 """
 
 from typing import TYPE_CHECKING
@@ -18,23 +18,29 @@ from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from pool_sim_ros.oracle.budget import ErrorBudget, error_budget
+    from pool_sim_ros.oracle.calibration import Fit, fit
     from pool_sim_ros.oracle.candidates import what_if
     from pool_sim_ros.oracle.goal import Goal
     from pool_sim_ros.oracle.noise import Noise
     from pool_sim_ros.oracle.plan import Failure, Plan, RankedShot
     from pool_sim_ros.oracle.search import find_shots
+    from pool_sim_ros.oracle.tracks import Track, read_tracks
 else:
     __getattr__ = lazy_exports(
         __name__,
         {
             'ErrorBudget': 'budget',
             'Failure': 'plan',
+            'Fit': 'calibration',
             'Goal': 'goal',
             'Noise': 'noise',
             'Plan': 'plan',
             'RankedShot': 'plan',
+            'Track': 'tracks',
             'error_budget': 'budget',
             'find_shots': 'search',
+            'fit': 'calibration',
+            'read_tracks': 'tracks',
             'what_if': 'candidates',
         },
     )
@@ -42,11 +48,15 @@ else:
 __all__ = [
     'ErrorBudget',
     'Failure',
+    'Fit',
     'Goal',
     'Noise',
     'Plan',
     'RankedShot',
+    'Track',
     'error_budget',
     'find_shots',
+    'fit',
+    'read_tracks',
     'what_if',
 ]

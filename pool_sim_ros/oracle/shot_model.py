@@ -44,10 +44,10 @@ class ShotModel:
         if after.sum() < 5:
             raise ValueError(f'track: {after.sum()} frames after the strike must be at least 5')
         seen = track.positions
-        self.seen = np.isfinite(seen).all(axis=2)
+        self.seen = np.asarray(np.isfinite(seen).all(axis=2))
         if not self.seen.any(axis=0).all():
-            ball = table.labels[int(np.flatnonzero(~self.seen.any(axis=0))[0])]
-            raise ValueError(f'track: ball {ball!r} is in no frame')
+            hidden = table.labels[int(np.flatnonzero(~self.seen.any(axis=0))[0])]
+            raise ValueError(f'track: ball {hidden!r} is in no frame')
         rest = np.empty((n, 2))
         moves = np.zeros(n, bool)
         for ball in range(n):
@@ -62,15 +62,18 @@ class ShotModel:
         if self.rest is None:
             raise ValueError('track: its balls lie in one another before the strike')
         velocity = self._first_velocity(rest[0])
-        spin = np.array([-velocity[1], velocity[0], 0.0])[: self.spins] / table.radii[0]
-        self.guess = np.concatenate([velocity, spin, self.rest[self.moves].ravel()])
+        spin = np.array([-velocity[1], velocity[0], 0.0]) / table.radii[0]
+        if track.spin is not None:
+            spin = track.spin
+        self.guess = np.concatenate([velocity, spin[: self.spins], self.rest[self.moves].ravel()])
 
     def residuals(
         self, table: Table, unknowns: NDArray[np.float64], share: float
     ) -> NDArray[np.float64]:
         """Return how far what was seen is from what the unknowns say, in noises.
 
-        Only a share of the track after the strike, from its beginning. A ball that was not seen differs by 0.
+        Only a share of the track after the strike, from its beginning. A ball that was not seen
+        differs by 0.
         """
         frames = self.before + max(int(np.ceil(share * (len(self.track.times) - self.before))), 5)
         places = np.array(self.rest)

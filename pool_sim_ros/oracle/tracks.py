@@ -25,6 +25,9 @@ class Track:
         Of the frames, s since the cue struck, rising; before 0 all balls rest.
     positions : array_like of shape (k, n, 2)
         Where the balls were seen, m; NaN where one was not.
+    spin : array_like of shape (3,), optional
+        A first guess of the spin that the cue gave, rad/s, as `cue_strike` returns it; without it
+        that the ball rolls.
 
     Raises
     ------
@@ -34,6 +37,7 @@ class Track:
 
     times: NDArray[np.float64]
     positions: NDArray[np.float64]
+    spin: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         times, positions = as_floats('times', self.times), as_floats('positions', self.positions)
@@ -43,6 +47,11 @@ class Track:
             )
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
             raise ValueError('track: times must be finite and rise')
+        if self.spin is not None:
+            spin = as_floats('spin', self.spin)
+            if spin.shape != (3,) or not np.isfinite(spin).all():
+                raise ValueError(f'track: spin {spin.tolist()} must be three finite numbers')
+            object.__setattr__(self, 'spin', spin)
         object.__setattr__(self, 'times', times)
         object.__setattr__(self, 'positions', positions)
 

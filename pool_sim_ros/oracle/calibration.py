@@ -32,12 +32,18 @@ do not tell it."""
 STAGES = (0.1, 0.2, 0.3, 0.4, 0.55, 0.7, 0.85, 1.0, 1.0)
 """Parts of the tracks that are fitted one after another: a first guess is good for a short time."""
 
+POLISH = 15
+"""Gauss-Newton steps at the end, at most."""
+
 PRIOR = 0.3
 """How far a coefficient is expected from the first guess, as a part of it. What the tracks tell is
 hundreds of times as sharp; what they do not tell yet stays where it is."""
 
 ROUGH = 20.0
 """Noises from which on what differs counts for less, until the whole track is fitted."""
+
+MISFIT = 4.0
+"""Standard deviations of chi-square from which on a track fits worse than the others."""
 
 STEP = 1e-6
 """Of each unknown in the differences that make the Jacobian, in the unit of each."""
@@ -65,6 +71,8 @@ class Fit:
         the model is right.
     freedom : int
         Values that were seen, less unknowns.
+    left_out : tuple of int
+        Tracks that fit much worse than the others: a wrong order of contacts, a wrong first guess.
     """
 
     table: Table
@@ -74,12 +82,19 @@ class Fit:
     noise: float
     chi_square: float
     freedom: int
+    left_out: tuple[int, ...] = ()
 
     def __str__(self) -> str:
-        lines = [f'{name:16s} {v:.5f} +- {self.errors[name]:.5f}' for name, v in self.values.items()]
+        lines = [
+            f'{name:16s} {v:.5f} +- {self.errors[name]:.5f}' for name, v in self.values.items()
+        ]
         if self.unknown:
             lines.append(f'not to be told from these tracks: {", ".join(self.unknown)}')
-        lines.append(f'noise {1e3 * self.noise:.3f} mm; chi^2 {self.chi_square:.0f} of {self.freedom}')
+        if self.left_out:
+            lines.append(f'tracks left out: {", ".join(map(str, self.left_out))}')
+        lines.append(
+            f'noise {1e3 * self.noise:.3f} mm; chi^2 {self.chi_square:.0f} of {self.freedom}'
+        )
         return '\n'.join(lines)
 
 
@@ -117,7 +132,7 @@ def fit(table: Table, tracks: Sequence[Track], *, noise: float = 5e-4) -> Fit:
     if not models:
         raise ValueError('tracks: there are none')
     problem = Problem(table, names, models)
-    unknowns = problem.first_guess()
+    kept, unknowns = np.arange(len(models)), problem.first_guess()
     for stage in STAGES:
         problem.share = stage
         found = least_squares(
@@ -132,7 +147,37 @@ def fit(table: Table, tracks: Sequence[Track], *, noise: float = 5e-4) -> Fit:
             max_nfev=EVALUATIONS,
         )
         unknowns = found.x
-    return problem.result(unknowns, noise)
+    for _ in range(len(models)):
+        unknowns = polished(problem, unknowns)
+        good = problem.explained(unknowns)
+        if good.all():
+            break
+        kept = kept[good]
+        problem, unknowns = problem.only(good, unknowns)
+    left_out = np.setdiff1d(np.arange(len(models)), kept)
+    return replace(problem.result(unknowns, noise), left_out=tuple(left_out.tolist()))
+
+
+def polished(problem: Problem, unknowns: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return unknowns to which Gauss-Newton steps add nothing: lsmr alone ends a little early."""
+    low, high = problem.bounds()
+    left = problem.residuals(unknowns)
+    for _ in range(POLISH):
+        slope = problem.jacobian(unknowns)
+        curvature = (slope.T @ slope).toarray()
+        step = np.linalg.lstsq(curvature, slope.T @ left, rcond=1e-12)[0]
+        for part in (1.0, 0.3, 0.1, 0.03):
+            there = np.clip(unknowns - part * step, low, high)
+            better = problem.residuals(there)
+            if better @ better < left @ left:
+                break
+        else:
+            return unknowns
+        gain = left @ left - better @ better
+        unknowns, left = there, better
+        if gain < 1e-3:
+            break
+    return unknowns
 
 
 class Problem:
@@ -142,6 +187,7 @@ class Problem:
         self.table, self.names, self.models = table, names, models
         self.share = 1.0
         self.given = np.array([float(getattr(table, name)) for name in names])
+        self.prior = PRIOR * np.maximum(self.given, 0.02)
         sizes = [len(model.guess) for model in models]
         self.begins = len(names) + np.cumsum([0, *sizes])
 
@@ -149,7 +195,7 @@ class Problem:
         """Return the coefficients of the table, and each track's own guess."""
         low, high = self.bounds()
         guess = np.concatenate([self.given, *(model.guess for model in self.models)])
-        return np.clip(guess, low + 1e-4, high - 1e-4)
+        return np.asarray(np.clip(guess, low + 1e-4, high - 1e-4))
 
     def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the least and the greatest value of each unknown."""
@@ -166,7 +212,7 @@ class Problem:
             model.residuals(table, self._own(unknowns, k), self.share)
             for k, model in enumerate(self.models)
         ]
-        prior = (unknowns[: len(self.names)] - self.given) / (PRIOR * self.given)
+        prior = (unknowns[: len(self.names)] - self.given) / self.prior
         return np.concatenate([*parts, prior])
 
     def jacobian(self, unknowns: NDArray[np.float64]) -> Any:
@@ -195,8 +241,30 @@ class Problem:
                 block[:, j] = (model.residuals(table, other, self.share) - here) / STEP
             blocks.append(block)
         seen = hstack([csr_matrix(np.concatenate(shared)), block_diag(blocks)])
-        prior = diags([1.0 / (PRIOR * self.given)], [0], shape=(count, len(unknowns)))
+        prior = diags([1.0 / self.prior], [0], shape=(count, len(unknowns)))
         return vstack([seen, prior]).tocsr()
+
+    def explained(self, unknowns: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return which tracks fit as well as most, (k,)."""
+        table = self._table(unknowns)
+        counts = np.array([model.seen.sum() * 2 for model in self.models])
+        squares = np.array(
+            [
+                (model.residuals(table, self._own(unknowns, k), 1.0) ** 2).sum()
+                for k, model in enumerate(self.models)
+            ]
+        )
+        usual = np.median(squares / counts)
+        return np.asarray(squares / counts <= usual * (1.0 + MISFIT * np.sqrt(2.0 / counts)))
+
+    def only(
+        self, good: NDArray[np.bool_], unknowns: NDArray[np.float64]
+    ) -> tuple[Problem, NDArray[np.float64]]:
+        """Return the problem of some tracks, and its unknowns."""
+        chosen = [k for k, kept in enumerate(good) if kept]
+        problem = Problem(self.table, self.names, [self.models[k] for k in chosen])
+        own = [self._own(unknowns, k) for k in chosen]
+        return problem, np.concatenate([unknowns[: len(self.names)], *own])
 
     def result(self, unknowns: NDArray[np.float64], noise: float) -> Fit:
         """Return what was found, with errors from the curvature."""
