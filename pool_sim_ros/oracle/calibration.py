@@ -45,8 +45,9 @@ ROUGH = 20.0
 MISFIT = 4.0
 """Standard deviations of chi-square from which on a track fits worse than the others."""
 
-STEP = 1e-6
-"""Of each unknown in the differences that make the Jacobian, in the unit of each."""
+STEP, FINE_STEP = 5e-4, 1e-6
+"""Of each unknown in the differences that make the Jacobian, in the unit of each. The first steps
+over what is no more than a ripple; the second serves at the end, for exact errors."""
 
 EVALUATIONS = 25
 """Steps of a stage, at most."""
@@ -147,6 +148,7 @@ def fit(table: Table, tracks: Sequence[Track], *, noise: float = 5e-4) -> Fit:
             max_nfev=EVALUATIONS,
         )
         unknowns = found.x
+    problem.step = FINE_STEP
     for _ in range(len(models)):
         unknowns = polished(problem, unknowns)
         good = problem.explained(unknowns)
@@ -185,7 +187,7 @@ class Problem:
 
     def __init__(self, table: Table, names: list[str], models: list[ShotModel]) -> None:
         self.table, self.names, self.models = table, names, models
-        self.share = 1.0
+        self.share, self.step = 1.0, STEP
         self.given = np.array([float(getattr(table, name)) for name in names])
         self.prior = PRIOR * np.maximum(self.given, 0.02)
         sizes = [len(model.guess) for model in models]
@@ -223,7 +225,7 @@ class Problem:
         moved = []
         for k in range(count):
             other = unknowns.copy()
-            other[k] += STEP if unknowns[k] + STEP < 1.0 else -STEP
+            other[k] += self.step if unknowns[k] + self.step < 1.0 else -self.step
             moved.append((self._table(other), other[k] - unknowns[k]))
         shared, blocks = [], []
         for k, model in enumerate(self.models):
@@ -237,8 +239,8 @@ class Problem:
             block = np.empty((len(here), len(own)))
             for j in range(len(own)):
                 other = own.copy()
-                other[j] += STEP
-                block[:, j] = (model.residuals(table, other, self.share) - here) / STEP
+                other[j] += self.step
+                block[:, j] = (model.residuals(table, other, self.share) - here) / self.step
             blocks.append(block)
         seen = hstack([csr_matrix(np.concatenate(shared)), block_diag(blocks)])
         prior = diags([1.0 / self.prior], [0], shape=(count, len(unknowns)))
@@ -263,6 +265,7 @@ class Problem:
         """Return the problem of some tracks, and its unknowns."""
         chosen = [k for k, kept in enumerate(good) if kept]
         problem = Problem(self.table, self.names, [self.models[k] for k in chosen])
+        problem.step = self.step
         own = [self._own(unknowns, k) for k in chosen]
         return problem, np.concatenate([unknowns[: len(self.names)], *own])
 
