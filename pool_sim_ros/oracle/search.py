@@ -11,30 +11,24 @@ from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.oracle.assess import assess
 from pool_sim_ros.oracle.checks import checked_positions, time_allowed, whole
-from pool_sim_ros.oracle.climb import climb
+from pool_sim_ros.oracle.climb import climb_best
 from pool_sim_ros.oracle.goal import Goal, goal_of
 from pool_sim_ros.oracle.noise import Noise, NoiseName, noise_of
 from pool_sim_ros.oracle.plan import Plan
-from pool_sim_ros.oracle.race import common, race
-from pool_sim_ros.oracle.space import FINEST, Space, checked_space
+from pool_sim_ros.oracle.race import race
+from pool_sim_ros.oracle.space import checked_space
 from pool_sim_ros.oracle.sweep import Sweep
 from pool_sim_ros.oracle.trials import Trials
 from pool_sim_ros.physics import Table
 
-SWEEP, RACE, CLIMB, COMPARE, FRESH = 0.62, 0.16, 0.10, 0.05, 0.07
+SWEEP, RACE, CLIMB, FRESH = 0.5, 0.15, 0.25, 0.1
 """Shares of the shots. A good map matters most: what it misses nobody finds later."""
 
 DEADLINES = {'sweep': 0.65, 'race': 0.8, 'climb': 0.9}
 """Shares of `seconds` after which a stage ends, so that those after it have some time left."""
 
-CLIMBERS, CLIMBS = 4, 2
-"""Aims that climb, and how often."""
-
 PEAKS = 256
 """Of the map that are raced."""
-
-DIFFERENT = 2.0
-"""Standard deviations between two shots of an answer: closer ones are the same shot."""
 
 FEWEST = 1000
 """Shots below which a search would find nothing but luck."""
@@ -132,49 +126,17 @@ def find_shots(
     cut.clear()
     aims = race(trials, space, sweep.peaks(PEAKS), int(RACE * budget), seed, late('race'))
     aims = climb_best(trials, space, aims, (int(CLIMB * budget), count), seed, late('climb'))
-    best = rank(trials, space, aims, (int(COMPARE * budget), count), seed)
-    fresh = max(int(FRESH * budget) // len(best), 100)
+    fresh = int(FRESH * budget)
     ranked = [
-        assess(trials, aim, fresh, np.random.default_rng([seed, 6, k]))
-        for k, aim in enumerate(best)
+        assess(trials, aim, max(share, 100), np.random.default_rng([seed, 6, k]))
+        for k, (aim, share) in enumerate(zip(aims, shares(fresh, len(aims)), strict=True))
     ]
     found = [shot for shot in ranked if shot.chance > 0.0]
     return Plan(found, trials.played, bool(cut) or not swept_all)
 
 
-def climb_best(
-    trials: Trials,
-    space: Space,
-    aims: NDArray[np.float64],
-    budget: tuple[int, int],
-    seed: int,
-    late: Callable[[], bool],
-) -> NDArray[np.float64]:
-    """Return the aims, (k, 5), those of the best ones that climbed first, then as they were."""
-    shots, count = budget
-    climbers = min(CLIMBERS, len(aims))
-    each = max(shots // (CLIMBS * CLIMBERS), 64)
-    climbed = aims[:climbers].copy()
-    for turn in range(CLIMBS):
-        if late():
-            break
-        for k in range(climbers):
-            rng = np.random.default_rng([seed, 4, turn, k])
-            climbed[k] = climb(trials, space, climbed[k], each, rng)
-    return np.concatenate([climbed, aims[: max(count, climbers)]])
-
-
-def rank(
-    trials: Trials,
-    space: Space,
-    aims: NDArray[np.float64],
-    budget: tuple[int, int],
-    seed: int,
-) -> NDArray[np.float64]:
-    """Return the best aims, (k, 5), best first, by shots with noise that they share."""
-    shots, count = budget
-    each = max(shots // len(aims), 64)
-    met, _ = common(trials, aims, each, [seed, 5])
-    order = np.argsort(-met.sum(axis=1), kind='stable')
-    apart = DIFFERENT * np.maximum(trials.spread, FINEST)
-    return aims[space.distinct(aims, order, count, apart)]
+def shares(shots: int, count: int) -> list[int]:
+    """Share shots out to so many aims: the best gets half of them."""
+    if count == 1:
+        return [shots]
+    return [shots // 2] + [shots // 2 // (count - 1)] * (count - 1)
