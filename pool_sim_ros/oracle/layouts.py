@@ -57,6 +57,7 @@ class Layouts:
         # A ball in a mouth of a pocket, beyond the rails, is kept by its jaws alone.
         kept = between & self.free
         self.low[~kept], self.high[~kept] = -np.inf, np.inf
+        self.plain = table.cushions is None and len(table.pockets) == 0
         self.any_close = bool(near.any() or not clear[self.free].all())
 
     def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float64] | None:
@@ -82,7 +83,11 @@ class Layouts:
         return self.seen + noise
 
     def _impossible(self, places: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return which layouts cannot be, (m,): the engine says so."""
+        """Return which layouts cannot be, (m,): the engine says so, where there are pockets."""
+        if self.plain:
+            first, second, touch = self.pairs
+            apart = places[:, second] - places[:, first]
+            return np.asarray(((apart**2).sum(axis=2) < touch**2).any(axis=1))
         nothing = np.zeros((len(places), len(self.seen), 2))
         played = simulate_many(
             self.table, nothing, positions=places, until=0.0, errors='mark', threads=1

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pool_sim_ros.oracle.assess import assess
 from pool_sim_ros.oracle.checks import checked_positions, time_allowed, whole
@@ -23,6 +23,9 @@ from pool_sim_ros.physics import Table
 
 SWEEP, RACE, CLIMB, FRESH = 0.5, 0.15, 0.25, 0.1
 """Shares of the shots. A good map matters most: what it misses nobody finds later."""
+
+EVENLY, POWERS = 0.6, (1.0, 2.0)
+"""Of the sweep, what is spread evenly; and how much the rest prefers the better places."""
 
 DEADLINES = {'sweep': 0.65, 'race': 0.8, 'climb': 0.9}
 """Shares of `seconds` after which a stage ends, so that those after it have some time left."""
@@ -114,8 +117,12 @@ def find_shots(
 
         return is_late
 
-    sweep = Sweep(trials, space, int(SWEEP * shots), seed)
-    sweep.go_on(int(SWEEP * shots), late('sweep'))
+    sweep = Sweep(trials, space, int(EVENLY * SWEEP * shots), seed)
+    sweep.go_on(int(EVENLY * SWEEP * shots), late('sweep'))
+    for power in POWERS:
+        if not cut:
+            part = (1.0 - EVENLY) / len(POWERS)
+            sweep.focus(int(part * SWEEP * shots), power, late('sweep'))
     if sweep.met == 0 and not cut:
         sweep.go_on(shots, late('sweep'))
     if sweep.met == 0:

@@ -63,7 +63,12 @@ def problems() -> list[Problem]:
         ('place 9', own, Goal(ball='9', to=(0.3, 0.2), within=0.1), olympic),
         ('touch 2 and 3', own, Goal(touches='2') & Goal(touches='3'), seen('sjtu', 2e-3)),
         ('place 1 in a corner', own, Goal(ball='1', rectangle=(1.7, 0.0, 2.2, 0.4)), robot),
-        ('1 first, cue home', own, Goal(first_hit='1') & Goal(cue_to=(1.6, 0.5), within=0.3), robot),
+        (
+            '1 first, cue home',
+            own,
+            Goal(first_hit='1') & Goal(cue_to=(1.6, 0.5), within=0.3),
+            robot,
+        ),
         ('place 5, rare', own, Goal(ball='5', to=(0.6, 0.9), within=0.05), seen('fastfiz', 5e-4)),
         ('place 2 of four', layout(4, 1), Goal(ball='2', to=(1.1, 0.3), within=0.08), olympic),
         ('cue in a corner', layout(7, 2), Goal(cue_to=(0.2, 0.2), within=0.06), robot),
