@@ -17,11 +17,11 @@ from pool_sim_ros.oracle.trials import Trials
 WIDER = 1.6
 """Standard deviations of the shots in that of the noise: the weights stay below 3 a dimension."""
 
-REACHES = (1.5, 0.3)
+REACHES = (1.2, 0.4)
 """Standard deviations between an aim and the ends of a grid of aims nearby; then between the best
 of those and the ends of a finer one."""
 
-POINTS = {2: 17, 4: 7}
+POINTS = {2: 17, 4: 5}
 """Of such a grid in each dimension, by the number of dimensions."""
 
 ROUNDS = ((8, 1), (4, 2), (2, 4), (2, 4))

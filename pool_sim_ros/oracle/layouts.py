@@ -58,7 +58,8 @@ class Layouts:
         kept = between & self.free
         self.low[~kept], self.high[~kept] = -np.inf, np.inf
         self.plain = table.cushions is None and len(table.pockets) == 0
-        self.any_close = bool(near.any() or not clear[self.free].all())
+        self.at_rails = np.flatnonzero(~clear & self.free)
+        self.any_close = bool(near.any() or len(self.at_rails) > 0)
 
     def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float64] | None:
         """Return so many layouts, (count, n, 2) in m; None where the camera makes no mistake."""
@@ -67,13 +68,13 @@ class Layouts:
         places = self._noisy(count, rng)
         if not self.any_close:
             return places
-        bad = np.arange(count)
-        for _ in range(DRAWS):
-            places[bad] = self._apart(places[bad])
-            bad = bad[self._impossible(places[bad])]
+        places = self._apart(places)
+        bad = np.flatnonzero(self._impossible(places))
+        for _ in range(DRAWS - 1):
             if len(bad) == 0:
                 return places
-            places[bad] = self._noisy(len(bad), rng)
+            places[bad] = self._apart(self._noisy(len(bad), rng))
+            bad = bad[self._impossible(places[bad])]
         places[bad] = self.seen
         return places
 
@@ -96,7 +97,8 @@ class Layouts:
 
     def _apart(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return layouts, (m, n, 2), with their balls between the rails and apart."""
-        places = np.clip(places, self.low, self.high)
+        rails = self.at_rails
+        places[:, rails] = np.clip(places[:, rails], self.low[rails], self.high[rails])
         first, second, touch = self.pairs
         left = np.arange(len(places)) if len(first) else np.arange(0)
         for _ in range(ROUNDS):
