@@ -85,7 +85,8 @@ setup(
         'report': ['imageio-ffmpeg', 'latex2mathml', 'matplotlib', 'pyyaml', 'tqdm'],
         'web': ['aiohttp'],
         'record': ['rosbags'],
-        'bench': ['pytest-benchmark', 'tqdm'],
+        'fit': ['rosbags', 'scipy'],
+        'bench': ['cma', 'pytest-benchmark', 'tqdm'],
         'test': [
             'catkin_pkg',
             'colcon-package-information',

@@ -28,7 +28,7 @@ OPTIONAL = {
         'matplotlib',
         'mcap',
     ],
-    *['mpmath', 'packaging', 'playwright', 'rosbags', 'tqdm', 'yaml'],
+    *['mpmath', 'packaging', 'playwright', 'rosbags', 'scipy', 'tqdm', 'yaml'],
     *['diagnostic_msgs', 'geometry_msgs', 'rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'std_msgs'],
     *['std_srvs', 'visualization_msgs', 'ament_index_python'],
 }
