@@ -170,4 +170,5 @@ def noise_of(options: argparse.Namespace) -> Noise:
     from pool_sim_ros.oracle import Noise
 
     noise = Noise() if options.noise == 'none' else Noise.preset(options.noise)
-    return replace(options.scale * noise, camera=options.camera or 0.0)
+    scaled: Noise = options.scale * noise
+    return replace(scaled, camera=options.camera or 0.0)
