@@ -38,5 +38,6 @@ class OracleError(CommandError):
     """
 
     def __init__(self, code: str, reason: str) -> None:
-        super().__init__(f'{code}: {reason}')
-        self.code, self.reason = code, reason
+        self.code = code.value if isinstance(code, OracleCode) else code
+        self.reason = reason
+        super().__init__(f'{self.code}: {reason}')
