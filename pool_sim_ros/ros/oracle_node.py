@@ -59,7 +59,7 @@ class OracleNode(GuardedNode):
         self._threads = threads
         self._view = SimulatorView(self.context, simulator, 'oracle_view')
         self._table: Table | None = None
-        self._drawn = False
+        self._compiled = self._drawn = False
         self._answers = self._publisher(oracle_interface.WHAT_IF_RESPONSE)
         self._rejections = self._publisher(oracle_interface.WHAT_IF_REJECTED)
         self._plans = self._publisher(oracle_interface.PLAN_RESPONSE)
@@ -71,6 +71,10 @@ class OracleNode(GuardedNode):
         read = commands.reader(wanted.type, PLAN_BYTES, self._on_plan, self._desk.refuse)
         self.create_subscription(wanted.type, wanted.private, read, wanted.qos, raw=True)
         self.create_timer(LOOK_PERIOD, self._look)
+
+    def is_ready(self) -> bool:
+        """Return whether it knows the table, and its engine is compiled."""
+        return self._compiled
 
     def stop(self, timeout: float) -> bool:
         """Make no other plan; return whether the one in the making ended within `timeout` s."""
@@ -91,6 +95,7 @@ class OracleNode(GuardedNode):
         if table is not None and table != self._table:
             self._table = table
             compile_kernels(table)
+            self._compiled = True
             self.get_logger().info(f'ready: {self._view.simulator}, {len(table.balls)} balls')
         if self._drawn and self._view.moves():
             self._drawn = False

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 import time
 from dataclasses import dataclass
@@ -22,6 +23,10 @@ from pool_sim_ros.simulator import read_json_object
 
 LOOK_PERIOD = 0.05
 """Seconds between two looks for an oracle, while there is none and something to ask."""
+
+KNOCK_PERIOD = 0.25
+"""Seconds between two tries of one candidate, until one is answered: only then both sides know each
+other, and no answer is lost."""
 
 RESEND = 10.0
 """Seconds without any answer after which questions are sent again: an oracle was restarted, or only
@@ -69,10 +74,13 @@ class WhatIfClient:
         self._timer = node.create_timer(LOOK_PERIOD, self._send_waiting)
         self._timer.cancel()
         self._asked: dict[Stamp, _Asked] = {}
+        self._knocks: set[Stamp] = set()
+        self._heard = False
+        self._knocked = -math.inf
         self._last_answer = 0.0
 
-    def is_matched(self) -> bool:
-        """Return whether an oracle hears what is asked from now on, and is heard."""
+    def _is_matched(self) -> bool:
+        """Return whether this side knows an oracle; it may not know this side yet."""
         return (
             self._requests.get_subscription_count() > 0
             and self._responses.get_publisher_count() > 0
@@ -98,11 +106,13 @@ class WhatIfClient:
         ValueError
             For a wrong shape, no candidates, or too many.
         """
-        stamp = random.getrandbits(31), random.randrange(1_000_000_000)
+        stamp = _new_stamp()
         asked = _Asked(request_bytes(stamp, self._frame_id, candidates), Future())
         self._asked[stamp] = asked
-        if self.is_matched():
+        if self._heard and self._is_matched():
             self._send(asked)
+        else:
+            self._heard = False
         self._timer.reset()
         return asked.future
 
@@ -120,13 +130,32 @@ class WhatIfClient:
         asked.sent = time.monotonic()
         self._requests.publish(asked.message)
 
+    def _knock(self) -> None:
+        if time.monotonic() - self._knocked > KNOCK_PERIOD:
+            self._knocked = time.monotonic()
+            stamp = _new_stamp()
+            self._knocks.add(stamp)
+            self._requests.publish(request_bytes(stamp, self._frame_id, [(0.0, 0.0)]))
+
+    def _opened(self) -> None:
+        """Ask what waits, now that the oracle has answered."""
+        self._heard = True
+        self._knocks.clear()
+        for asked in self._asked.values():
+            if asked.sent is None:
+                self._send(asked)
+
     def _send_waiting(self) -> None:
         self._asked = {
             stamp: asked for stamp, asked in self._asked.items() if not asked.future.cancelled()
         }
         if not self._asked:
             self._timer.cancel()
-        elif self.is_matched():
+        elif not self._is_matched():
+            self._heard = False
+        elif not self._heard:
+            self._knock()
+        else:
             late = time.monotonic() - RESEND
             for asked in self._asked.values():
                 if asked.sent is None or max(asked.sent, self._last_answer) < late:
@@ -138,6 +167,8 @@ class WhatIfClient:
         except ValueError as error:
             self._leave_out(error)
             return
+        if stamp in self._knocks:
+            self._opened()
         if outcomes is not None:  # a rejection comes on a topic of its own, with its reason
             self._end(stamp, outcomes)
 
@@ -163,3 +194,7 @@ class WhatIfClient:
     def _leave_out(self, error: Exception) -> None:
         line = f'not understood, and left out: {type(error).__name__}: {error}'
         self._node.get_logger().warn(line[:300], throttle_duration_sec=1.0)
+
+
+def _new_stamp() -> Stamp:
+    return random.getrandbits(31), random.randrange(1_000_000_000)
