@@ -102,30 +102,45 @@ def test_while_balls_move_it_says_so(room_at_start):
 
 
 class Heard:
-    """Sends clouds as anybody may, and keeps what the oracle says on its topics."""
+    """Sends clouds as anybody may, and keeps what the oracle says of them on its topics.
+
+    Their stamps have two equal numbers, which those of a WhatIfClient have not.
+    """
 
     def __init__(self, room):
         self.node = room.ros.node('heard')
         self.answers, self.rejected = [], []
         for topic, keep in (
-            (oracle_interface.WHAT_IF_RESPONSE, self.answers.append),
-            (oracle_interface.WHAT_IF_REJECTED, lambda m: self.rejected.append(json.loads(m.data))),
+            (oracle_interface.WHAT_IF_RESPONSE, self._on_answer),
+            (oracle_interface.WHAT_IF_REJECTED, self._on_rejected),
         ):
             self.node.create_subscription(topic.type, topic.of('pool_oracle'), keep, topic.qos)
         topic = oracle_interface.WHAT_IF_REQUEST
         self.requests = self.node.create_publisher(topic.type, topic.of('pool_oracle'), topic.qos)
 
+    def _on_answer(self, message):
+        stamp = message.header.stamp
+        if stamp.sec == stamp.nanosec:
+            self.answers.append(message)
+
+    def _on_rejected(self, message):
+        rejection = json.loads(message.data)
+        seconds, nanoseconds = rejection['stamp']
+        if seconds == nanoseconds:
+            self.rejected.append(rejection)
+
     def wait_for_match(self):
-        """Ask something wrong until it is answered on both topics, and then something right."""
+        """Ask something wrong until it is answered on both topics, and then once more: after that
+        answer nothing else is under way."""
 
         def answered():
             self.requests.publish(candidates_message(0, count=0))
             return self.answers and self.rejected
 
         wait_until(answered, 'the oracle')
-        self.requests.publish(candidates_message(0))
-        wait_until(lambda: self.answers[-1].width == 2, 'the answers to all that was asked before')
-        wait_until(lambda: len(self.rejected) == len(self.answers) - 1, 'all rejections')
+        self.requests.publish(candidates_message(99, count=0))
+        wait_until(lambda: self.answers[-1].header.stamp.sec == 99, 'the last answer')
+        wait_until(lambda: self.rejected[-1]['stamp'] == [99, 99], 'the last rejection')
         self.answers.clear()
         self.rejected.clear()
 
