@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.oracle import RankedShot, find_shots
+from pool_sim_ros.oracle import Noise, RankedShot, find_shots
 from pool_sim_ros.physics import Table
 from pool_sim_ros.web_view.pages import Page, message
 
-NOISE = 'fastfiz'
+NOISE = Noise.preset('fastfiz')
 """How badly somebody shoots who plays on a page: as in the computer olympiads."""
 
 SHOTS, SECONDS = 150_000, 4.0
