@@ -29,8 +29,15 @@ OPTIONAL = {
         'mcap',
     ],
     *['mpmath', 'packaging', 'playwright', 'rosbags', 'scipy', 'tqdm', 'yaml'],
-    *['diagnostic_msgs', 'geometry_msgs', 'rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'std_msgs'],
-    *['std_srvs', 'visualization_msgs', 'ament_index_python'],
+    *[
+        'diagnostic_msgs',
+        'geometry_msgs',
+        'rcl_interfaces',
+        'rclpy',
+        'rosgraph_msgs',
+        'sensor_msgs',
+    ],
+    *['std_msgs', 'std_srvs', 'visualization_msgs', 'ament_index_python'],
 }
 """Packages without which the other tests run: some have no apt package, and so no rosdep key."""
 
