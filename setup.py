@@ -85,6 +85,9 @@ setup(
         'report': ['imageio-ffmpeg', 'latex2mathml', 'matplotlib', 'pyyaml', 'tqdm'],
         'web': ['aiohttp'],
         'record': ['rosbags'],
+        'gym': ['gymnasium>=1.1'],
+        'plot': ['matplotlib'],
+        'frames': ['pandas', 'xarray'],
         'bench': ['pytest-benchmark', 'tqdm'],
         'test': [
             'catkin_pkg',

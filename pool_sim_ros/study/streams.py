@@ -20,9 +20,7 @@ def mixed(words: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return words ^ (words >> SHIFTS[2])
 
 
-def draws(
-    seeds: NDArray[np.uint64], episodes: NDArray[np.uint64], below: int
-) -> NDArray[np.int64]:
+def draws(seeds: NDArray[np.uint64], episodes: NDArray[np.uint64], below: int) -> NDArray[np.int64]:
     """Return a whole number from 0 up to `below`, for each seed and episode, (m,) both.
 
     The seeds are `mixed` ones, so that neighbours have nothing in common.
