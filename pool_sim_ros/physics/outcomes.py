@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from pool_sim_ros.physics.table import Table
 
 PLAYED, BAD_LAYOUT, TOO_MANY_EVENTS, RUNS_AWAY = 0, 1, 2, 3
 """Values of `Outcomes.failed`."""
@@ -101,6 +107,41 @@ class Outcomes(NamedTuple):
     failed: NDArray[np.int8]
     events: NDArray[np.void] | None
     offsets: NDArray[np.int64] | None
+
+    def to_xarray(self, table: Table) -> xarray.Dataset:
+        """Return a dataset of xarray with all but the events (extra `frames`).
+
+        Parameters
+        ----------
+        table : Table
+            That was played on: its labels name the balls.
+
+        Returns
+        -------
+        xarray.Dataset
+            With the dimensions `shot`, `ball` and `axis`, the units as attributes of the variables,
+            and the table as JSON and the version of this package as attributes of all.
+
+        Raises
+        ------
+        ValueError
+            Where the table has another number of balls.
+        ModuleNotFoundError
+            Where xarray is not installed; names the extra.
+        """
+        from pool_sim_ros.physics.frames import outcomes_dataset
+
+        return outcomes_dataset(self, table)
+
+    def events_frame(self, table: Table) -> pandas.DataFrame:
+        """Return the events of all shots as a frame of pandas, as `Trajectory.events_frame`.
+
+        A column `shot` stands before the others. Raises ValueError where no events were kept, or
+        the table has another number of balls; ModuleNotFoundError where pandas is not installed.
+        """
+        from pool_sim_ros.physics.frames import outcomes_events_frame
+
+        return outcomes_events_frame(self, table.labels)
 
 
 def new_outcomes(shots: int, balls: int, out: Outcomes | None, pockets: bool = False) -> Outcomes:
