@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -88,7 +88,7 @@ class Film(FuncAnimation):
         self._balls = _draw_balls(shot.table, self._places[0], drawn)
         self._title = drawn.set_title('0.00 s')
         # The axes may be those of a part of a figure.
-        self._whole = cast(Figure, drawn.figure.figure)
+        self._whole: Figure = drawn.figure.figure
         super().__init__(self._whole, self._show, frames, interval=1000.0 / fps, repeat=False)
 
     def _show(self, frame: int) -> list[Any]:

@@ -101,6 +101,7 @@ def test_wrappers_of_gymnasium_work_on_it():
 def test_seeds_may_be_given_one_by_one():
     one, other = PlaceVectorEnv(3, starts=1000), PlaceVectorEnv(3, starts=1000)
     assert (one.reset(seed=4)[0] == other.reset(seed=[4, 5, 6])[0]).all()
+    assert (one.reset(seed=4)[0] == other.reset(seed=np.arange(4, 7))[0]).all()
     kept = other.reset(seed=[4, None, 6])[0]
     expected = one.reset()[0]
     assert (kept[1] == expected[1]).all() and (kept[::2] != expected[::2]).any(axis=1).all()
