@@ -16,7 +16,7 @@ import time
 import gymnasium
 import numpy as np
 
-import pool_sim_ros.study
+import pool_sim_ros.study  # noqa: F401, registers the environments
 from pool_sim_ros.physics import report_table
 
 POLICIES, STARTS, BEST = 128, 512, 16
