@@ -108,19 +108,29 @@ class Outcomes(NamedTuple):
     events: NDArray[np.void] | None
     offsets: NDArray[np.int64] | None
 
-    def to_xarray(self, table: Table) -> xarray.Dataset:
+    def __repr__(self) -> str:
+        shots, balls = (*np.shape(self.finals), 0, 0)[:2]
+        words = f'{shots} shots, {balls} balls'
+        if self.events is not None:
+            words += f', {len(self.events)} events'
+        if failed := int(np.count_nonzero(self.failed)):
+            words += f', {failed} failed'
+        return f'<Outcomes {words}>'
+
+    def to_xarray(self, table: Table | None = None) -> xarray.Dataset:
         """Return a dataset of xarray with all but the events (extra `frames`).
 
         Parameters
         ----------
-        table : Table
-            That was played on: its labels name the balls.
+        table : Table, optional
+            That was played on. Its labels then name the balls, else their numbers do.
 
         Returns
         -------
         xarray.Dataset
-            With the dimensions `shot`, `ball` and `axis`, the units as attributes of the variables,
-            and the table as JSON and the version of this package as attributes of all.
+            With the dimensions `shot`, `ball` and `axis`, and the units as attributes of the
+            variables. The version of this package is an attribute of the whole, and so is the
+            table, as JSON.
 
         Raises
         ------
@@ -133,15 +143,16 @@ class Outcomes(NamedTuple):
 
         return outcomes_dataset(self, table)
 
-    def events_frame(self, table: Table) -> pandas.DataFrame:
+    def events_frame(self, table: Table | None = None) -> pandas.DataFrame:
         """Return the events of all shots as a frame of pandas, as `Trajectory.events_frame`.
 
-        A column `shot` stands before the others. Raises ValueError where no events were kept, or
-        the table has another number of balls; ModuleNotFoundError where pandas is not installed.
+        A column `shot` stands before the others; without a table no column has labels. Raises
+        ValueError where no events were kept, or the table has another number of balls;
+        ModuleNotFoundError where pandas is not installed.
         """
         from pool_sim_ros.physics.frames import outcomes_events_frame
 
-        return outcomes_events_frame(self, table.labels)
+        return outcomes_events_frame(self, table)
 
 
 def new_outcomes(shots: int, balls: int, out: Outcomes | None, pockets: bool = False) -> Outcomes:

@@ -84,6 +84,14 @@ def test_a_dataset_has_names_units_and_the_table(outcomes, tmp_path):
     assert isinstance(data, xarray.Dataset)
 
 
+def test_without_a_table_balls_have_numbers(outcomes):
+    data, frame = outcomes.to_xarray(), outcomes.events_frame()
+    assert data.ball.to_numpy().tolist() == list(range(11)) and 'table' not in data.attrs
+    assert (data.finals.sel(ball=9).to_numpy() == outcomes.finals[:, 9]).all()
+    labelled = outcomes.events_frame(TABLE)
+    pandas.testing.assert_frame_equal(frame, labelled.drop(columns=['ball', 'other']))
+
+
 @pytest.mark.parametrize('name', ['to_xarray', 'events_frame'])
 def test_a_table_with_other_balls_is_refused(outcomes, name):
     with pytest.raises(ValueError, match='^table: it has 16 balls, but the outcomes are of 11$'):

@@ -63,6 +63,7 @@ def test_a_table_with_pockets_shows_them_and_its_cushions():
 
 def test_a_film_shows_the_balls_where_they_are(shot):
     film = shot.animate(speed=2.0, fps=10.0)
+    film._draw_was_started = True
     frames = list(film.new_frame_seq())
     assert len(frames) == int(np.ceil(shot.duration / 2.0 * 10.0)) + 1
     for frame in (0, 3, frames[-1]):
@@ -76,6 +77,7 @@ def test_a_film_may_be_a_part_of_a_figure(shot):
     parts = plt.figure().subfigures(1, 2)
     film = shot.animate(fps=1.0, axes=parts[1].subplots())
     assert film._whole is parts[0].figure
+    film._draw_was_started = True  # else matplotlib warns, once nobody filters it any more
 
 
 def test_a_notebook_shows_a_film_once():

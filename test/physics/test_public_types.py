@@ -109,7 +109,7 @@ simulate_many(table, [(1.0, 0.0)], errors='ignore')
 simulate(table, (1.0, 0.0)).spins()
 aim_at(table, 0, 1)
 simulate(table, (1.0, 0.0)).animate(speed='slow')
-simulate_many(table, [(1.0, 0.0)]).to_xarray()
+simulate_many(table, [(1.0, 0.0)]).to_xarray('report')
 table.index(9)
 collide_cushion((1.0, 0.0, 0.0), 3, (1.0, 0.0), R=0.03, h=0.04, e=0.9, f=0.2, model='x')
 """
