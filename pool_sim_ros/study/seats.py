@@ -38,7 +38,7 @@ class Seats:
 
     def seed(self, seats: NDArray[np.int64], seeds: Sequence[int]) -> None:
         """Give some environments seeds; their next episode is the first of these."""
-        self._seeds[seats] = mixed(np.array([int(seed) % WORD for seed in seeds], np.uint64))
+        self._seeds[seats] = mixed(np.array([seed % WORD for seed in seeds], np.uint64))
         self._episodes[seats] = 0
 
     def begin(self, seats: NDArray[np.int64]) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
-from pool_sim_ros.study.actions import checked_actions
+from pool_sim_ros.study.checks import checked_actions
 from pool_sim_ros.study.seats import Seats
 from pool_sim_ros.study.spaces import action_space, observation_space
 from pool_sim_ros.study.tasks import Task

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics import Table
+from pool_sim_ros.study.checks import positive
 
 MISCUE_OFFSET = 0.5
 """How far from the middle the tip meets the ball at most, in radii: farther out it slips off."""
@@ -40,9 +41,7 @@ class Strikes:
     """
 
     def __init__(self, table: Table, speed: float) -> None:
-        if not 0.0 < speed <= MAX_SPEED:
-            raise ValueError(f'speed: {speed} must be above 0 and at most {MAX_SPEED:g} m/s')
-        self._speed = float(speed)
+        self._speed = positive('speed', speed, 'm/s', MAX_SPEED)
         self._spins = table.motion == 'ball'
         self._rate = SPIN_PER_OFFSET * MISCUE_OFFSET / table.balls[0].radius
         self.count = 4 if self._spins else 2

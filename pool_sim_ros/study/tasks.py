@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics import Outcomes, Table, simulate_many
+from pool_sim_ros.study.checks import positive
 from pool_sim_ros.study.starts import starts_of
 from pool_sim_ros.study.strikes import Strikes
 
@@ -166,9 +167,7 @@ class Place(Task):
             self._ball = table.index(ball)
             if self._ball == 0:
                 raise ValueError(f'ball: {ball!r} is the cue ball; name another one')
-        if not within > 0.0:
-            raise ValueError(f'within: {within} must be above 0 m')
-        self._place, self._within = place, float(within)
+        self._place, self._within = place, positive('within', within, 'm')
         super().__init__(table, speed, starts, threads)
 
     def goal_limits(self) -> tuple[Floats, Floats]:

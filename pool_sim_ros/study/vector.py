@@ -11,7 +11,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from pool_sim_ros.study.actions import checked_actions
+from pool_sim_ros.study.checks import checked_actions, counted
 from pool_sim_ros.study.seats import Seats
 from pool_sim_ros.study.spaces import action_space, observation_space
 from pool_sim_ros.study.tasks import Task, Turn
@@ -34,12 +34,15 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         max_episode_steps: int | None,
         autoreset_mode: AutoresetMode | str,
     ) -> None:
-        if num_envs < 1:
-            raise ValueError(f'num_envs: {num_envs} must be at least 1')
-        if max_episode_steps is not None and max_episode_steps < 1:
-            raise ValueError(f'max_episode_steps: {max_episode_steps} must be at least 1')
+        num_envs = counted('num_envs', num_envs)
+        if max_episode_steps is not None:
+            max_episode_steps = counted('max_episode_steps', max_episode_steps)
         self.num_envs = num_envs
-        self._mode = AutoresetMode(autoreset_mode)
+        try:
+            self._mode = AutoresetMode(autoreset_mode)
+        except ValueError:
+            known = ', '.join(repr(mode.value) for mode in AutoresetMode)
+            raise ValueError(f'autoreset_mode: {autoreset_mode!r} must be one of {known}') from None
         self.metadata = {'render_modes': [], 'autoreset_mode': self._mode}
         self.single_observation_space = observation_space(task)
         self.single_action_space = action_space(task)
@@ -165,6 +168,8 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         }
 
     def _chosen(self, options: dict[str, Any] | None) -> NDArray[np.int64]:
+        if options is not None and not isinstance(options, dict):
+            raise ValueError(f'options: {options!r} must be a dict')
         mask = (options or {}).get('reset_mask')
         if mask is None:
             return np.arange(self.num_envs)
@@ -180,15 +185,13 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
     def _seeds(self, seed: Seed) -> list[Any] | None:
         if seed is None:
             return None
-        if isinstance(seed, (int, np.integer)):
-            super().reset(seed=int(seed))  # refuses one below 0
-            return self._seeds_from(int(seed))
-        seeds = list(seed)
-        if len(seeds) != self.num_envs:
-            raise ValueError(f'seed: {len(seeds)} seeds must be {self.num_envs}')
-        for each in seeds:
-            if each is not None and not (isinstance(each, (int, np.integer)) and each >= 0):
-                raise ValueError(f'seed: {each!r} must be a whole number, 0 or more')
+        if not isinstance(seed, (Sequence, np.ndarray)) or isinstance(seed, str):
+            first = counted('seed', seed, 0)
+            super().reset(seed=first)
+            return self._seeds_from(first)
+        if len(seed) != self.num_envs:
+            raise ValueError(f'seed: {len(seed)} seeds must be {self.num_envs}')
+        seeds = [each if each is None else counted('seed', each, 0) for each in seed]
         if self._has_begun:
             return seeds
         others = self._seeds_from(self.np_random_seed or 0)
