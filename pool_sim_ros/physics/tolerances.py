@@ -31,6 +31,9 @@ STRAIGHT = 1e-12
 PRESSED = 1e-12
 """Depth in m up to which a ball that is pressed to a cushion is so by rounding alone."""
 
+SIFTED = 4
+"""Moving balls from which on it is faster to look at all at once before each one."""
+
 MAX_STEPS = 200
 """Steps towards one contact time. Convergence is quadratic; in a graze it is linear: some 50."""
 

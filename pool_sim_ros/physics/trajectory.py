@@ -267,7 +267,11 @@ def _curve(segment: np.void, lasts: float) -> NDArray[np.float64]:
     a = np.array([segment['ax'], segment['ay']])
     sag = _most_across(v, a, lasts) * lasts * lasts / 8.0
     count = max(math.ceil(math.sqrt(sag / PATH_SAG)), 1)
-    t = np.linspace(0.0, lasts, count, endpoint=False)[:, np.newaxis]
+    t = np.linspace(0.0, lasts, count, endpoint=False)
+    if sag == 0.0 and 0.0 < -float(v @ a) < lasts * float(a @ a):
+        # A ball that comes back on its own line.
+        t = np.append(t, -float(v @ a) / float(a @ a))
+    t = t[:, np.newaxis]
     return np.array([segment['x'], segment['y']]) + t * (v + 0.5 * t * a)
 
 

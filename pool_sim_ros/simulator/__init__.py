@@ -37,13 +37,16 @@ if TYPE_CHECKING:
         parameters_of,
     )
     from pool_sim_ros.simulator.parameter_values import ParameterError, coerce, values_from
+    from pool_sim_ros.simulator.refusals import RefusedError
     from pool_sim_ros.simulator.replay import replay_frames
+    from pool_sim_ros.simulator.request_fields import cue_from
     from pool_sim_ros.simulator.runner import Runner
     from pool_sim_ros.simulator.settings import Settings, build_settings
     from pool_sim_ros.simulator.shot_request import (
         MAX_REQUEST_LENGTH,
         Code,
         Phase,
+        Request,
         Response,
         parse_request,
         unreadable_request,
@@ -56,6 +59,7 @@ if TYPE_CHECKING:
     )
     from pool_sim_ros.simulator.simulation import Simulation
     from pool_sim_ros.simulator.steps import Stepped
+    from pool_sim_ros.simulator.strikes import strike_on
     from pool_sim_ros.simulator.table_json import table_from_json, table_to_json
 else:
     __getattr__ = lazy_exports(
@@ -79,6 +83,8 @@ else:
             'ParameterSpec': 'parameter_table',
             'ParameterValue': 'parameter_table',
             'Phase': 'shot_request',
+            'RefusedError': 'refusals',
+            'Request': 'shot_request',
             'Response': 'shot_request',
             'Runner': 'runner',
             'SECOND_NS': 'sim_time',
@@ -104,6 +110,8 @@ else:
             'state_from_json': 'heard',
             'table_from_json': 'table_json',
             'table_to_json': 'table_json',
+            'cue_from': 'request_fields',
+            'strike_on': 'strikes',
             'unreadable_request': 'shot_request',
             'values_from': 'parameter_values',
             'velocity_columns': 'frame',
@@ -129,6 +137,8 @@ __all__ = [
     'ParameterSpec',
     'ParameterValue',
     'Phase',
+    'RefusedError',
+    'Request',
     'Response',
     'Runner',
     'SECOND_NS',
@@ -139,6 +149,7 @@ __all__ = [
     'VELOCITY_COLUMNS',
     'build_settings',
     'coerce',
+    'cue_from',
     'default_values',
     'parameters_of',
     'parse_request',
@@ -152,6 +163,7 @@ __all__ = [
     'stamp_to_seconds',
     'start_layout',
     'state_from_json',
+    'strike_on',
     'table_from_json',
     'table_to_json',
     'unreadable_request',

@@ -38,7 +38,7 @@ def strike_of(request: Request, settings: Settings) -> Strike:
         Where there is no such shot, balls of this table do not spin, the cue would slip off or the
         cue ball would be too fast or not move.
     """
-    strike = _strike_of(request, settings.table)
+    strike = strike_on(settings.table, request)
     speed = math.hypot(*strike.velocity)
     if speed > settings.max_cue_speed:
         limit = f'max_cue_speed, {settings.max_cue_speed:g} m/s'
@@ -46,7 +46,14 @@ def strike_of(request: Request, settings: Settings) -> Strike:
     return strike
 
 
-def _strike_of(request: Request, table: Table) -> Strike:
+def strike_on(table: Table, request: Request) -> Strike:
+    """Return the strike of a readable request on a table; how fast does not matter.
+
+    Raises
+    ------
+    RefusedError
+        As `strike_of`.
+    """
     spins = table.motion == 'ball'
     if request.shot is not None:
         try:

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeGuard
 
+from pool_sim_ros.simulator import cue_from
+
 LONGEST = 2048
 """Most characters of a command: one that places a whole rack has about 1000."""
 
@@ -26,8 +28,6 @@ _FIELDS: dict[str, tuple[tuple[str, ...], ...]] = {
     'reset': ((),),
 }
 """Name of a command -> the fields that may go with it."""
-
-_CUE = ('speed', 'azimuth', 'elevation', 'side', 'above')
 
 
 @dataclass(frozen=True)
@@ -87,18 +87,6 @@ def _spin(value: object) -> list[float]:
     return _numbers(value, 3, 'spin must be three finite numbers, [x, y, z] in rad/s')
 
 
-def _cue(value: object) -> dict[str, float]:
-    if not isinstance(value, dict) or not {'speed', 'azimuth'} <= set(value) <= set(_CUE):
-        raise ValueError(
-            'cue must be an object with speed and azimuth; it may have the others of '
-            + ', '.join(_CUE)
-        )
-    for name, number in value.items():
-        if not _is_finite(number):
-            raise ValueError(f'cue: {name} must be a finite number')
-    return {name: float(number) for name, number in value.items()}
-
-
 def _places(value: object) -> dict[str, list[float]]:
     if not isinstance(value, dict) or not 0 < len(value) <= MOST_PLACED:
         raise ValueError('places must be an object, label to [x, y] in m')
@@ -142,7 +130,7 @@ def _is_finite(value: object) -> TypeGuard[int | float]:
 _CHECKS: dict[str, Callable[[object], Any]] = {
     'velocity': _velocity,
     'spin': _spin,
-    'cue': _cue,
+    'cue': cue_from,
     'number': _number,
     'paused': _paused,
     'factor': _factor,

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from pool_sim_ros.physics import Table, cue_strike, simulate
+from pool_sim_ros.physics import Table, simulate
+from pool_sim_ros.simulator import RefusedError, Request, strike_on
 from pool_sim_ros.web_view.motion import LONGEST, motion_fields
 
 
@@ -32,17 +33,14 @@ def predict(table: Table, positions: np.ndarray, strike: dict[str, Any]) -> dict
     ValueError
         If the balls cannot lie there, or nobody can strike like this.
     """
-    velocity, spin = strike_of(table, strike)
+    try:
+        velocity, spin = strike_on(table, Request(**strike))
+    except RefusedError as error:
+        raise ValueError(error.reason) from None
     shot = simulate(table, velocity, spins=spin, positions=positions, until=LONGEST)
-    return {'asked': strike, 'velocity': velocity, 'spin': spin, **motion_fields(shot, positions)}
-
-
-def strike_of(table: Table, strike: dict[str, Any]) -> tuple[list[float], list[float] | None]:
-    """Return velocity, m/s, and spin, rad/s, of the cue ball; no spin where balls are discs."""
-    if 'cue' in strike:
-        if table.motion != 'ball':
-            raise ValueError('cue: on a table of discs there is no spin; give a velocity')
-        velocity, spin = cue_strike(table, **strike['cue'])
-        return velocity.tolist(), spin.tolist()
-    still = [0.0, 0.0, 0.0] if table.motion == 'ball' else None
-    return list(strike['velocity']), strike.get('spin', still)
+    return {
+        'asked': strike,
+        'velocity': list(velocity),
+        'spin': None if spin is None else list(spin),
+        **motion_fields(shot, positions),
+    }

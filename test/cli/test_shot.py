@@ -89,6 +89,7 @@ def test_a_node_that_dies_in_the_middle_is_one_clear_line_and_status_1(domain):
             assert 'silent' in shot.stderr and shot.stderr.count('\n') == 1
 
 
+@pytest.mark.soak
 def test_a_node_that_is_restarted_in_the_middle_is_one_clear_line_and_status_1(domain):
     with other_simulator() as node:
         with Process('cli.shot', *STRIKE_OTHER, '--timeout', '100') as shot:
@@ -105,7 +106,7 @@ def test_ctrl_c_is_one_clear_line(domain):
         with Process('cli.shot', *STRIKE_OTHER, *PATIENT) as shot:
             shot.wait_for('accepted')
             shot.interrupt()
-            assert shot.wait() == 130
+            assert shot.wait() == 130, shot.stderr
             assert shot.stderr.count('\n') == 1
 
 

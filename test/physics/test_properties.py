@@ -58,7 +58,7 @@ def velocities_of(table):
 
 
 SETTINGS = settings(
-    max_examples=40,
+    max_examples=25,
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )

@@ -66,6 +66,8 @@ CURVES = {
     'turns at the end': (1.0, 0.0, -1.0, 0.01),
     'a weak curve': (1.0, 0.0, -0.1, 1e-3),
     'straight': (2.0, 1.0, -0.5, -0.25),
+    'comes back on its line': (1.0, 0.5, -2.0, -1.0),
+    'ends where it turns': (1.0, 0.0, -1.0, 0.0),
 }
 
 
@@ -85,6 +87,8 @@ def test_a_curved_path_is_within_the_sag(curve):
         ('turns at the end', 114),
         ('a weak curve', 6),
         ('straight', 2),
+        ('comes back on its line', 3),
+        ('ends where it turns', 2),
     ],
 )
 def test_a_curved_path_has_no_more_points_than_that_needs(curve, most):

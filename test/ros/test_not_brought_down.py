@@ -107,6 +107,7 @@ def test_readers_that_come_and_go(ros, domain):
         plays_as_printed(observer)
 
 
+@pytest.mark.soak
 def test_a_reader_that_stops_reading(ros):
     with node_process(**FAST):
         observer = Observer(ros).wait_for_match()

@@ -161,6 +161,14 @@ def _log_spin(segment, ball, table):
     pass
 
 
+def _keep_path(ball, table, rows, i):
+    pass
+
+
+def _sift(path, table, radius, times, rows):
+    return False
+
+
 def _lie_at(ball, table, x, y):
     ball.x, ball.y = x, y
 
@@ -198,6 +206,8 @@ IMPLEMENTATIONS = {
     seam.relative_motion: _relative,
     seam.advance: _advance,
     seam.has_phases: _has_phases,
+    seam.keep_path: _keep_path,
+    seam.sift: _sift,
     seam.rest_begins: _rest_begins,
     seam.give_spin: _give_spin,
     seam.log_spin: _log_spin,

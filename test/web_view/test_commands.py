@@ -67,7 +67,7 @@ def test_commands(fields, command):
         ('{"do": "aim", "velocity": [1, 2], "cue": {}}', 'nothing else'),
         ('{"do": "aim", "cue": {"speed": 1}}', 'azimuth'),
         ('{"do": "aim", "cue": {"speed": 1, "azimuth": 2, "power": 3}}', 'elevation'),
-        ('{"do": "aim", "cue": {"speed": 1, "azimuth": "2"}}', 'azimuth must be a finite'),
+        ('{"do": "aim", "cue": {"speed": 1, "azimuth": "2"}}', 'azimuth must be a number'),
         ('{"do": "place", "places": []}', 'places'),
         ('{"do": "place", "places": {}}', 'places'),
         ('{"do": "place", "places": {"9": [1, NaN]}}', 'places'),

@@ -41,7 +41,7 @@ def test_a_spin_is_used():
     ('table', 'positions', 'strike', 'words'),
     [
         (TABLE, np.tile([1.0, 0.5], (11, 1)), {'velocity': [1.0, 0.0]}, 'overlap'),
-        (TABLE, TABLE.positions, {'cue': {'speed': 1.0, 'azimuth': 0.0}}, 'discs'),
+        (TABLE, TABLE.positions, {'cue': {'speed': 1.0, 'azimuth': 0.0}}, 'motion disc'),
         (SPIN, SPIN.positions, {'cue': {'speed': 1.0, 'azimuth': 0.0, 'side': 0.6}}, 'miscue|side'),
     ],
 )

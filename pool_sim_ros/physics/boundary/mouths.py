@@ -60,3 +60,12 @@ def is_cut_off(boundary: Any, x: float, y: float, radius: float) -> bool:
         if distance_from_way(x, y, end_x, end_y, pocket[0], pocket[1]) < pocket[2]:
             return True
     return False
+
+
+def crosses(
+    segments: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
+) -> bool:
+    """Return whether any segment has a point within a rectangle, from a look at many of each."""
+    parts = np.linspace(0.0, 1.0, 1001)[:, np.newaxis, np.newaxis]
+    points = (1.0 - parts) * segments[:, :2] + parts * segments[:, 2:4]
+    return bool(np.all((low < points) & (points < high), axis=-1).any())

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.boundary.mouths import faces, height_above, is_cut_off
+from pool_sim_ros.physics.boundary.mouths import crosses, faces, height_above, is_cut_off
 from pool_sim_ros.physics.boundary.rectangle import time_to_rectangle
 from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION, PHASE_END
 from pool_sim_ros.physics.capsule import Capsule, capsule_of, room_beside
@@ -58,19 +58,10 @@ def pocketed_boundary(
     free = all(
         np.hypot(*(np.clip((x, y), low, high) - (x, y))) >= reach - TOUCHING
         for x, y, reach in circles
-    ) and not _crosses(jaws, low - radius, high + radius)
+    ) and not crosses(jaws, low - radius, high + radius)
     return PocketedBoundary(
         length, width, segments, noses, pockets, rails, radius if free else np.inf
     )
-
-
-def _crosses(
-    segments: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
-) -> bool:
-    """Return whether any segment has a point within a rectangle, from a look at many of each."""
-    parts = np.linspace(0.0, 1.0, 1001)[:, np.newaxis, np.newaxis]
-    points = (1.0 - parts) * segments[:, :2] + parts * segments[:, 2:4]
-    return bool(np.all((low < points) & (points < high), axis=-1).any())
 
 
 def n_cushions(boundary: PocketedBoundary) -> int:

@@ -13,10 +13,10 @@ from pool_sim_ros.physics.boundary import (
 )
 from pool_sim_ros.physics.contacts import contact_normal
 from pool_sim_ros.physics.event_driven.event_queue import first
-from pool_sim_ros.physics.event_driven.few_balls import note_motion
 from pool_sim_ros.physics.event_driven.prediction import (
     cross,
     lay_down,
+    note_change,
     predict,
     predict_after,
     take_out,
@@ -95,7 +95,7 @@ def strike(state: State, velocities: NDArray[np.float64], spins: NDArray[np.floa
         give_spin(balls[i], table, spins[i, 0], spins[i, 1], spins[i, 2])
     for i in range(len(velocities)):
         set_off(balls[i], table, velocities[i, 0], velocities[i, 1])
-        note_motion(state.grid.few, balls, i)
+        note_change(state, i)
     for i in range(len(balls)):
         log_motion(state, i, 0.0)
         if balls[i].phase != RESTS:
@@ -125,6 +125,7 @@ def stop(state: State, a: int, now: float) -> None:
     if has_phases(state.table) and ball.phase != RESTS:
         # The same path goes on: whoever is about to meet this ball need not know.
         ball.next_contact_time = np.inf
+        note_change(state, a)
         predict(state, a, NONE, now)
         return
     lay_down(state, a, now)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.jit import inlined
-from pool_sim_ros.physics.motion import RESTS
+from pool_sim_ros.physics.motion import N_ROWS, RESTS
 
 X, Y, RADIUS, DISTANCE = 0, 1, 2, 3
 """Rows of `FewBalls.rows`."""
@@ -24,13 +24,14 @@ class FewBalls(NamedTuple):
     It has few arrays, since each costs seven arguments wherever a kernel calls another.
     """
 
-    rows: NDArray[np.float64]  # (4, n): where a ball rests, NaN while it moves; radius; room, m
+    # (N_ROWS, n): where a ball rests, NaN while it moves; radius; room, m; then how it moves.
+    rows: NDArray[np.float64]
     moving: NDArray[np.int64]  # (n + 1,): the numbers of those that move, in order; their count
 
 
 def new_few_balls(balls: NDArray[np.void], wanted: bool) -> FewBalls:
     """Return it for balls that all rest; without columns, only with room, unless `wanted`."""
-    rows = np.empty((4, len(balls) if wanted else 0))
+    rows = np.empty((N_ROWS, len(balls) if wanted else 0))
     if wanted:
         rows[X], rows[Y], rows[RADIUS] = balls['x'], balls['y'], balls['radius']
     return FewBalls(rows, np.zeros(len(balls) + 1, np.int64))

@@ -22,20 +22,23 @@ from pool_sim_ros.physics.event_driven.cell_grid import (
     neighbours,
 )
 from pool_sim_ros.physics.event_driven.event_queue import reschedule
-from pool_sim_ros.physics.event_driven.few_balls import n_moving, note_motion
+from pool_sim_ros.physics.event_driven.few_balls import DISTANCE, n_moving, note_motion
 from pool_sim_ros.physics.event_driven.state import State
 from pool_sim_ros.physics.jit import NONE, inlined, kernel
 from pool_sim_ros.physics.motion import (
     RESTS,
     first_resting_ball,
     first_resting_of,
+    keep_path,
     path_from,
     phase_end_time,
     relative_motion,
+    sift,
     time_to_boundary,
     time_to_cell_edge,
     time_to_resting_ball,
 )
+from pool_sim_ros.physics.tolerances import SIFTED
 
 
 @inlined
@@ -44,12 +47,21 @@ def predict_after(state: State, count: int, now: float) -> None:
     balls, changed = state.balls, state.group.members
     for m in range(count):
         balls[changed[m]].next_contact_time = np.inf
-        note_motion(state.grid.few, balls, changed[m])
+        note_change(state, changed[m])
     for m in range(count):
         if balls[changed[m]].phase != RESTS:
             predict(state, changed[m], m, now)
         else:
             lay_down(state, changed[m], now)
+
+
+@inlined
+def note_change(state: State, i: int) -> None:
+    """Note that ball `i` has a new motion, or rests."""
+    few, ball = state.grid.few, state.balls[i]
+    note_motion(few, state.balls, i)
+    if has_few(state.grid):
+        keep_path(ball, state.table, few.rows, i)
 
 
 @kernel
@@ -111,8 +123,14 @@ def meet(state: State, i: int, path: Any, count: int, n_done: int, now: float) -
         )
     if partner >= 0:
         book(balls, i, partner, now + seconds)
+    sifted = has_few(grid) and n_others >= SIFTED
+    if sifted:
+        times = now, ball.next_contact_time - now
+        sifted = sift(path, table, ball.radius, times, grid.few.rows)
     for m in range(n_others):
         j = grid.few.moving[m]
+        if sifted and grid.few.rows[DISTANCE, j] == 0.0:
+            continue
         if j != i and not is_among(j, state.group.members, n_done):
             meet_moving(state, i, j, path, now)
 

@@ -10,6 +10,7 @@ from pool_sim_ros.physics.jit import register
 from pool_sim_ros.physics.motion import ball, disc, seam
 from pool_sim_ros.physics.motion.ball_record import BALL, BallTable, spheres_at_rest
 from pool_sim_ros.physics.motion.disc_record import DISC, DiscTable, discs_at_rest
+from pool_sim_ros.physics.motion.moving_balls import N_ROWS
 from pool_sim_ros.physics.motion.phase import MOVES, RESTS, ROLLS, SLIDES
 from pool_sim_ros.physics.motion.seam import (
     acceleration,
@@ -21,6 +22,7 @@ from pool_sim_ros.physics.motion.seam import (
     give_spin,
     has_phases,
     in_play,
+    keep_path,
     lie_at,
     log_spin,
     path_from,
@@ -32,6 +34,7 @@ from pool_sim_ros.physics.motion.seam import (
     runs_away,
     set_off,
     shown_at,
+    sift,
     time_to_boundary,
     time_to_cell_edge,
     time_to_resting_ball,
@@ -42,6 +45,7 @@ __all__ = [
     'BALL',
     'DISC',
     'MOVES',
+    'N_ROWS',
     'RESTS',
     'ROLLS',
     'SLIDES',
@@ -60,6 +64,7 @@ __all__ = [
     'give_spin',
     'has_phases',
     'in_play',
+    'keep_path',
     'lie_at',
     'log_spin',
     'path_from',
@@ -71,6 +76,7 @@ __all__ = [
     'runs_away',
     'set_off',
     'shown_at',
+    'sift',
     'time_to_boundary',
     'time_to_cell_edge',
     'time_to_resting_ball',
@@ -94,6 +100,8 @@ CHOICES = (
     'relative_motion',
     'advance',
     'has_phases',
+    'keep_path',
+    'sift',
     'rest_begins',
     'give_spin',
     'log_spin',

@@ -7,14 +7,12 @@ and in place. The functions are the implementations of those in `motion`.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.boundary import pocket_at, pocket_centre, time_to_cushions
-from pool_sim_ros.physics.contact_time import RelativeMotion, first_root
-from pool_sim_ros.physics.jit import Record, inlined
+from pool_sim_ros.physics.contact_time import RelativeMotion
+from pool_sim_ros.physics.jit import Record
 from pool_sim_ros.physics.log import ROLL, STOP
 from pool_sim_ros.physics.motion.ball_phases import begin_phase, begin_to_roll, spin_left
 from pool_sim_ros.physics.motion.ball_record import BallTable
@@ -22,11 +20,13 @@ from pool_sim_ros.physics.motion.curved_path import (
     CurvedPath,
     first_in_rows,
     first_of_listed,
+    straight,
+    time_over,
     time_to_place,
 )
+from pool_sim_ros.physics.motion.moving_balls import keep_in_rows, mark_those_near
 from pool_sim_ros.physics.motion.phase import RESTS, ROLLS, SLIDES
 from pool_sim_ros.physics.motion.straight_path import (
-    StraightPath,
     distance_covered,
     distance_to_resting_ball,
     first_on_path,
@@ -124,6 +124,23 @@ def has_phases(table: BallTable) -> bool:
     return True
 
 
+def keep_path(ball: Record, table: BallTable, rows: NDArray[np.float64], i: int) -> None:
+    """Note how a ball moves from `since` on."""
+    keep_in_rows(ball, rows, i)
+
+
+def sift(
+    path: CurvedPath,
+    table: BallTable,
+    radius: float,
+    times: tuple[float, float],
+    rows: NDArray[np.float64],
+) -> bool:
+    """Mark those near; True."""
+    mark_those_near(path, radius, times[0], times[1], rows)
+    return True
+
+
 def rest_begins(ball: Record, table: BallTable) -> float:
     """Return when a ball that does not move stops to spin too, s."""
     if ball.wz == 0.0:
@@ -179,20 +196,6 @@ def time_to_cell_edge(
     if t < seconds:
         seconds, step_x, step_y = t, 0, -1
     return (seconds if seconds < path.lasts else np.inf), step_x, step_y
-
-
-@inlined
-def time_over(gap: float, closing: float, pressing: float) -> float:
-    """Return the seconds until an edge that is `gap` m away is crossed; inf for never."""
-    return first_root(max(gap, 0.0), closing, -pressing) if gap < np.inf else np.inf
-
-
-@inlined
-def straight(path: Any) -> StraightPath:
-    """Return the path of a ball that rolls."""
-    speed = np.sqrt(path.vx * path.vx + path.vy * path.vy)
-    inverse = 1.0 / speed if speed > 0.0 else 0.0
-    return StraightPath(path.x, path.y, path.vx * inverse, path.vy * inverse, speed)
 
 
 def first_resting_ball(

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.capsule import capsule_of, room_beside
-from pool_sim_ros.physics.contact_time import RelativeMotion, time_to_moving_ball
+from pool_sim_ros.physics.contact_time import RelativeMotion, first_root, time_to_moving_ball
 from pool_sim_ros.physics.jit import Record, inlined
+from pool_sim_ros.physics.motion.straight_path import StraightPath
 
 
 class CurvedPath(NamedTuple):
@@ -26,6 +27,20 @@ class CurvedPath(NamedTuple):
     ay: float
     lasts: float
     rolls: bool
+
+
+@inlined
+def time_over(gap: float, closing: float, pressing: float) -> float:
+    """Return the seconds until an edge that is `gap` m away is crossed; inf for never."""
+    return first_root(max(gap, 0.0), closing, -pressing) if gap < np.inf else np.inf
+
+
+@inlined
+def straight(path: CurvedPath) -> StraightPath:
+    """Return the path of a ball that rolls."""
+    speed = np.sqrt(path.vx * path.vx + path.vy * path.vy)
+    inverse = 1.0 / speed if speed > 0.0 else 0.0
+    return StraightPath(path.x, path.y, path.vx * inverse, path.vy * inverse, speed)
 
 
 @inlined

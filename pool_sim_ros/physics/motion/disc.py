@@ -213,6 +213,20 @@ def has_phases(table: DiscTable) -> bool:
     return False
 
 
+def keep_path(ball: Record, table: DiscTable, rows: NDArray[np.float64], i: int) -> None:
+    """Note nothing: the way of a disc is looked at one by one."""
+
+
+def sift(
+    path: Any,
+    table: DiscTable,
+    radius: float,
+    times: tuple[float, float],
+    rows: NDArray[np.float64],
+) -> bool:
+    return False
+
+
 def rest_begins(ball: Record, table: DiscTable) -> float:
     """Return when a disc came to rest, s: it does not spin."""
     return ball.since

@@ -147,6 +147,23 @@ def has_phases(table: Any) -> bool:
 
 
 @chosen_by('table')
+def keep_path(ball: Any, table: Any, rows: NDArray[np.float64], i: int) -> None:
+    """Note in column `i` of `rows`, those of few balls, how a ball moves, if `sift` needs it."""
+    raise NotImplementedError
+
+
+@chosen_by('table')
+def sift(
+    path: Any, table: Any, radius: float, times: tuple[float, float], rows: NDArray[np.float64]
+) -> bool:
+    """Mark in the fourth of `rows` which moving balls a path may touch; False where none is.
+
+    The path is of a ball of `radius`, m. `times` are now, and for how long to look, s.
+    """
+    raise NotImplementedError
+
+
+@chosen_by('table')
 def rest_begins(ball: Any, table: Any) -> float:
     """Return when a ball that rests has stopped to spin too, s."""
     raise NotImplementedError
