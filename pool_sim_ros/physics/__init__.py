@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.cushions import Cushions
     from pool_sim_ros.physics.game_tables import pool_table
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
+    from pool_sim_ros.physics.kernel_sources import source_hash
     from pool_sim_ros.physics.law_names import (
         BALL_FRICTION_LAWS,
         CUSHION_MODELS,
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.racks import RackKind, rack
     from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
+    from pool_sim_ros.physics.strokes import cue_strikes, unit_vectors
     from pool_sim_ros.physics.table import MOTIONS, Motion, Table
     from pool_sim_ros.physics.table_file import table_from_fields, table_to_fields
     from pool_sim_ros.physics.tolerances import V_MIN
@@ -91,6 +93,7 @@ else:
             'collide_cushion': 'contacts',
             'compile_kernels': 'shots',
             'cue_strike': 'cue',
+            'cue_strikes': 'strokes',
             'pool_table': 'game_tables',
             'pool_table_dimensions': 'pool_tables',
             'rack': 'racks',
@@ -98,9 +101,11 @@ else:
             'separated': 'separation',
             'simulate': 'shots',
             'simulate_many': 'shots',
+            'source_hash': 'kernel_sources',
             'table_from_fields': 'table_file',
             'table_to_fields': 'table_file',
             'two_ball_collision': 'contacts',
+            'unit_vectors': 'strokes',
         },
     )
 
@@ -139,6 +144,7 @@ __all__ = [
     'collide_cushion',
     'compile_kernels',
     'cue_strike',
+    'cue_strikes',
     'pool_table',
     'pool_table_dimensions',
     'rack',
@@ -146,7 +152,9 @@ __all__ = [
     'separated',
     'simulate',
     'simulate_many',
+    'source_hash',
     'table_from_fields',
     'table_to_fields',
     'two_ball_collision',
+    'unit_vectors',
 ]

@@ -7,6 +7,7 @@ Alciatore's technical proofs A.30 (speed and spin) and A.31 (squirt).
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,21 +94,49 @@ def cue_strike(
     cue_mass = number('cue_mass', cue_mass, *MASSES)
     turn = (1.0, 0.0) if end_mass_ratio is None else _squirt(side, end_mass_ratio)
 
+    velocity, spin = struck(
+        table, cue_mass, speed, (forward, (cosine, sine)), (side, above), _turned(forward, turn)
+    )
+    return np.array(velocity), np.array(spin)
+
+
+def struck(
+    table: Table,
+    cue_mass: float,
+    speed: Any,
+    directions: tuple[tuple[Any, Any], tuple[Any, Any]],
+    tip: tuple[Any, Any],
+    along: tuple[Any, Any],
+) -> tuple[tuple[Any, Any], tuple[Any, Any, Any]]:
+    """Return velocity and spin that a stroke gives, for numbers or for arrays of them.
+
+    Parameters
+    ----------
+    table : Table
+    cue_mass : float
+        kg.
+    speed : float or ndarray
+        Of the cue, m/s.
+    directions : tuple
+        Cosine and sine of the azimuth, and of the elevation.
+    tip : tuple
+        `side` and `above`, in radii.
+    along : tuple
+        Unit vector of the velocity, which squirt has turned.
+    """
+    ball, (forward, (cosine, sine)), (side, above) = table.balls[0], directions, tip
     offset = SPIN_PER_OFFSET * (side * side + above * above)
     ball_speed = 2.0 * speed / (1.0 + ball.mass / cue_mass + offset)
-    along = _turned(forward, turn)
     level = ball_speed * cosine
     rate = SPIN_PER_OFFSET * ball_speed / ball.radius
     # About the axes of the cue: to the left, backwards, up.
     left, backward = rate * above, rate * side * sine
     return (
-        np.array([level * along[0], level * along[1]]),
-        np.array(
-            [
-                -left * forward[1] - backward * forward[0],
-                left * forward[0] - backward * forward[1],
-                -rate * side * cosine,
-            ]
+        (level * along[0], level * along[1]),
+        (
+            -left * forward[1] - backward * forward[0],
+            left * forward[0] - backward * forward[1],
+            -rate * side * cosine,
         ),
     )
 
