@@ -85,7 +85,6 @@ def cue_strike(
     >>> bool(velocity[0] > 0.0), bool(spin[1] > 0.0)
     (True, True)
     """
-    ball = table.balls[0]
     speed = number('speed', speed, 0.0, MAX_SPEED)
     forward = _unit_vector(number('azimuth', azimuth))
     cosine, sine = _unit_vector(number('elevation', elevation, 0.0, 90.0))

@@ -144,7 +144,8 @@ def _range_of_json(name: str, said: Any, row: Callable[[str], Floats]) -> Range:
         mean = _range_of_json(name, said['mean'], row)
         assert not isinstance(mean, (Uniform, Normal))
         return Normal(mean, said['deviation'])
-    return np.asarray(row(name), dtype=float)
+    values = np.asarray(row(name), dtype=float)
+    return values if values.ndim else float(values)
 
 
 def _words(said: Any) -> str:

@@ -17,7 +17,7 @@ from pool_sim_ros.study.store import Store
 from pool_sim_ros.study.tally import Tally
 
 with needs('a sweep', 'study'):
-    from distributed import Client, Future, as_completed
+    from distributed import Client, as_completed
 
 TASKS_A_THREAD = 4
 """In hand at a time: enough that no worker waits for the next, whatever the sweep's length."""
@@ -83,7 +83,7 @@ def _play(client: Any, address: str, store: Store, tally: Tally) -> None:
         done.update(list(more(1)))
 
 
-def _shots_of(future: Future, address: str, store: Store) -> int:
+def _shots_of(future: Any, address: str, store: Store) -> int:
     """Return what a task gave; raise SweepError, in words, where it failed."""
     if future.status == 'finished':
         return int(future.result())

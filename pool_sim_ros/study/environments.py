@@ -7,8 +7,8 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from pool_sim_ros.extras import needs
-from pool_sim_ros.physics import POOL_TABLES, PoolTableName, Table, pool_table, report_table
 from pool_sim_ros.study.starts import COUNT
+from pool_sim_ros.study.tables import TableGiven, table_of
 from pool_sim_ros.study.tasks import Place, Pot, Task
 
 with needs('an environment', 'gym'):
@@ -23,20 +23,6 @@ SPEED = 3.0
 WITHIN = 0.1
 """m: nearly the diameter of the report's balls."""
 
-TableGiven = Table | PoolTableName | str
-
-
-def _table(given: TableGiven) -> Table:
-    if isinstance(given, Table):
-        return given
-    if given == 'report':
-        return report_table()
-    for name in POOL_TABLES:
-        if given == name:
-            return pool_table(name)
-    known = ', '.join(repr(each) for each in ('report', *POOL_TABLES))
-    raise ValueError(f'table: {given!r} must be a Table or one of {known}')
-
 
 def _place(
     table: TableGiven = 'report',
@@ -48,7 +34,7 @@ def _place(
     starts: int | ArrayLike = COUNT,
     threads: int | None = None,
 ) -> Task:
-    return Place(_table(table), speed, starts, threads, ball, place, within)
+    return Place(table_of(table), speed, starts, threads, ball, place, within)
 
 
 def _pot(
@@ -58,7 +44,7 @@ def _pot(
     starts: int | ArrayLike = COUNT,
     threads: int | None = None,
 ) -> Task:
-    return Pot(_table(table), speed, starts, threads)
+    return Pot(table_of(table), speed, starts, threads)
 
 
 class PlaceEnv(TaskEnv):

@@ -155,12 +155,10 @@ def checked_inputs(table: Table, given: Mapping[str, Any]) -> Inputs:
     for name in given:
         if name not in known:
             near = difflib.get_close_matches(name, known, 1)
-            hint = f'; did you mean {near[0]}?' if near else ''
+            hint = f'; did you mean {near[0]}?' if near else ';'
             there = ', '.join(n for n in known if not n.startswith(('x_', 'y_')))
             raise ValueError(
-                f'{name}: there is no such input{hint} There are {there}, and x_LABEL, y_LABEL'
-                if hint
-                else f'{name}: there is no such input; there are {there}, and x_LABEL, y_LABEL'
+                f'{name}: there is no such input{hint} there are {there}, x_LABEL, y_LABEL'
             )
     strike = strike_of(given)
     if strike == 'cue' and any(name in given for name in SPINS):

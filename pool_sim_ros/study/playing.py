@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import threading
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,11 +66,11 @@ class Player:
                 else positions,
                 errors='mark',
                 threads=self._threads,
-                out=Outcomes(*(each if each is None else each[part] for each in out)),
+                out=_part(out, part),
             )
             if pocketed is not None:
                 pocketed[part] = played.pocketed
-        outcomes = out._replace(pocketed=pocketed)
+        outcomes = _with_pocketed(out, pocketed)
         if wrong.any():
             outcomes.failed[wrong] = CANNOT_BE
         if (outcomes.failed != 0).any():
@@ -104,7 +105,7 @@ class Player:
                 None,
             )
             self._kept.room = room
-        return Outcomes(*(each if each is None else each[:count] for each in room))
+        return _part(room, slice(0, count))
 
     def _strikes(self, region: Region) -> tuple[Floats, Floats | None]:
         plan = self._plan
@@ -160,8 +161,8 @@ class Player:
         if not names:
             return [(plan.table, slice(0, region.count))]
         if all(row_of(plan.inputs[n]) is None and not is_random(plan.inputs[n]) for n in names):
-            values = [float(plan.values(n, region)[0]) for n in names]
-            return [(table_with(plan.table, tuple(names), tuple(values)), slice(0, region.count))]
+            fixed = tuple(float(plan.values(n, region)[0]) for n in names)
+            return [(table_with(plan.table, tuple(names), fixed), slice(0, region.count))]
         values = np.stack([plan.values(name, region) for name in names], axis=1)
         changes = np.flatnonzero((values[1:] != values[:-1]).any(axis=1)) + 1
         ends = [0, *changes.tolist(), region.count]
@@ -178,9 +179,19 @@ class Player:
 def table_with(table: Table, names: tuple[str, ...], values: tuple[float, ...]) -> Table | None:
     """Return a table with other coefficients, or None where they cannot be."""
     try:
-        return dataclasses.replace(table, **dict(zip(names, values, strict=True)))
+        changes: dict[str, Any] = dict(zip(names, values, strict=True))
+        return dataclasses.replace(table, **changes)
     except ValueError:
         return None
+
+
+def _part(outcomes: Any, part: slice) -> Outcomes:
+    return Outcomes(*(each if each is None else each[part] for each in outcomes))
+
+
+def _with_pocketed(outcomes: Any, pocketed: Any) -> Outcomes:
+    """Return outcomes with these, None where nobody pockets anything."""
+    return Outcomes(*outcomes[:3], pocketed, *outcomes[4:])
 
 
 def _erase(outcomes: Outcomes, failed: NDArray[np.bool_]) -> None:

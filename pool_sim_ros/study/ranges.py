@@ -91,7 +91,7 @@ def checked_range(name: str, given: Any) -> Range:
         values = np.array(given, dtype=float)
     except (TypeError, ValueError):
         raise ValueError(
-            f'{name}: {reprlib.repr(given)} must be a number, a row of numbers, uniform() or normal()'
+            f'{name}: {reprlib.repr(given)} must be a number, a row of them, uniform() or normal()'
         ) from None
     if values.ndim > 1 or not values.size:
         raise ValueError(f'{name}: shape {values.shape} must be () or (k,), of at least one number')

@@ -35,7 +35,7 @@ with needs('a sweep', 'study'):
     import zarr
     from zarr.codecs import BloscCodec
 
-CODEC = {'cname': 'lz4', 'clevel': 3, 'shuffle': 'noshuffle', 'typesize': 8}
+CODEC = BloscCodec(cname='lz4', clevel=3, shuffle='noshuffle', typesize=8)
 """Most balls rest where they were, which LZ4 finds as it is. Shuffled bytes would be larger, and
 take four times as long."""
 
@@ -78,7 +78,7 @@ def opened(path: Path) -> Store:
     if not path.exists():
         raise FileNotFoundError(f'{path}: there is no such folder')
     try:
-        group = zarr.open_group(path, mode='r+', use_consolidated=False)
+        group: Any = zarr.open_group(path, mode='r+', use_consolidated=False)
         attrs = dict(group.attrs)
         if IDENTITY not in attrs:
             raise ValueError('no sweep made it')
@@ -127,7 +127,7 @@ def _the_same(path: Path, plan: Plan) -> Store:
 
 
 def _make(path: Path, plan: Plan) -> None:
-    root = zarr.create_group(path, zarr_format=3)
+    root: Any = zarr.create_group(path, zarr_format=3)
     known = known_inputs(plan.table)
 
     def add(name: str, values: NDArray[Any], dimensions: tuple[str, ...], **said: str) -> None:
@@ -159,7 +159,7 @@ def _make(path: Path, plan: Plan) -> None:
             chunks=(*plan.block, *lengths),
             dtype=stored.dtype,
             fill_value=stored.fill,
-            compressors=BloscCodec(**CODEC),
+            compressors=CODEC,
             dimension_names=(*plan.sizes, *stored.dimensions),
             attributes=said,
         )
