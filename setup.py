@@ -88,6 +88,8 @@ setup(
         'gym': ['gymnasium>=1.1'],
         'plot': ['matplotlib'],
         'frames': ['pandas', 'xarray'],
+        # zarr 3 needs Python 3.11, and so do sweeps.
+        'study': ['dask[distributed]', 'tqdm', 'xarray', "zarr>=3.0.8; python_version >= '3.11'"],
         'bench': ['pytest-benchmark', 'tqdm'],
         'test': [
             'catkin_pkg',

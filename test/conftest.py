@@ -23,6 +23,7 @@ OPTIONAL = {
         'aiohttp',
         'catkin_pkg',
         'cyclonedds',
+        'distributed',
         'gymnasium',
         'imageio_ffmpeg',
         'latex2mathml',
@@ -30,6 +31,7 @@ OPTIONAL = {
         'mcap',
     ],
     *['mpmath', 'packaging', 'pandas', 'playwright', 'rosbags', 'tqdm', 'xarray', 'yaml'],
+    *['numcodecs', 'psutil', 'zarr'],
     *['diagnostic_msgs', 'geometry_msgs', 'rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'std_msgs'],
     *['std_srvs', 'visualization_msgs', 'ament_index_python'],
 }

@@ -45,7 +45,7 @@ class Player:
         plan = self._plan
         velocities, spins = self._strikes(region)
         positions = self._layouts(region)
-        wrong = ~np.isfinite(velocities).all(axis=1)
+        wrong = np.isnan(velocities[:, 0])
         velocities[wrong] = 0.0
         if spins is not None:
             spins[wrong] = 0.0
@@ -186,12 +186,14 @@ def table_with(table: Table, names: tuple[str, ...], values: tuple[float, ...]) 
 
 
 def _part(outcomes: Any, part: slice) -> Outcomes:
-    return Outcomes(*(each if each is None else each[part] for each in outcomes))
+    parts: list[Any] = [each if each is None else each[part] for each in outcomes]
+    return Outcomes(*parts)
 
 
-def _with_pocketed(outcomes: Any, pocketed: Any) -> Outcomes:
+def _with_pocketed(outcomes: Any, pocketed: NDArray[np.int64] | None) -> Outcomes:
     """Return outcomes with these, None where nobody pockets anything."""
-    return Outcomes(*outcomes[:3], pocketed, *outcomes[4:])
+    complete: Outcomes = outcomes._replace(pocketed=pocketed)
+    return complete
 
 
 def _erase(outcomes: Outcomes, failed: NDArray[np.bool_]) -> None:
