@@ -88,6 +88,11 @@ setup(
         'report': ['imageio-ffmpeg', 'latex2mathml', 'matplotlib', 'pyyaml', 'tqdm'],
         'web': ['aiohttp'],
         'record': ['rosbags'],
+        'gym': ['gymnasium>=1.1'],
+        'plot': ['matplotlib'],
+        'frames': ['pandas', 'xarray'],
+        # zarr 3 needs Python 3.11, and so do sweeps.
+        'study': ['dask[distributed]', 'tqdm', 'xarray', "zarr>=3.0.8; python_version >= '3.11'"],
         'fit': ['rosbags', 'scipy'],
         'bench': ['cma', 'pytest-benchmark', 'tqdm'],
         'test': [

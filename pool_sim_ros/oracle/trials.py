@@ -88,7 +88,10 @@ class Trials:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, NDArray[np.bool_]]:
         """Return velocities, spins (None for discs), and whether the tip held."""
         if self.table.motion == 'ball':
-            return cue_strikes(self.table, strokes)
+            velocities, spins = cue_strikes(self.table, *strokes.T)
+            held = np.isfinite(velocities[:, 0])
+            velocities[~held] = spins[~held] = 0.0
+            return velocities, spins, held
         speed, angle = strokes[:, 0], np.radians(strokes[:, 1])
         velocities = np.stack([speed * np.cos(angle), speed * np.sin(angle)], axis=-1)
         return velocities, None, np.ones(len(strokes), bool)

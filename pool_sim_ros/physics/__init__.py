@@ -23,10 +23,11 @@ if TYPE_CHECKING:
         collide_cushion,
         two_ball_collision,
     )
-    from pool_sim_ros.physics.cue import MISCUE_OFFSET, cue_strike, cue_strikes
+    from pool_sim_ros.physics.cue import MISCUE_OFFSET, cue_strike
     from pool_sim_ros.physics.cushions import Cushions
     from pool_sim_ros.physics.game_tables import pool_table
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
+    from pool_sim_ros.physics.kernel_sources import source_hash
     from pool_sim_ros.physics.law_names import (
         BALL_FRICTION_LAWS,
         CUSHION_MODELS,
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics.racks import RackKind, rack
     from pool_sim_ros.physics.separation import separated
     from pool_sim_ros.physics.shots import compile_kernels, simulate, simulate_many
+    from pool_sim_ros.physics.strokes import cue_strikes, unit_vectors
     from pool_sim_ros.physics.table import MOTIONS, Motion, Table
     from pool_sim_ros.physics.table_file import table_from_fields, table_to_fields
     from pool_sim_ros.physics.tolerances import V_MIN
@@ -92,7 +94,7 @@ else:
             'compile_kernels': 'shots',
             'MISCUE_OFFSET': 'cue',
             'cue_strike': 'cue',
-            'cue_strikes': 'cue',
+            'cue_strikes': 'strokes',
             'pool_table': 'game_tables',
             'pool_table_dimensions': 'pool_tables',
             'rack': 'racks',
@@ -100,9 +102,11 @@ else:
             'separated': 'separation',
             'simulate': 'shots',
             'simulate_many': 'shots',
+            'source_hash': 'kernel_sources',
             'table_from_fields': 'table_file',
             'table_to_fields': 'table_file',
             'two_ball_collision': 'contacts',
+            'unit_vectors': 'strokes',
         },
     )
 
@@ -150,7 +154,9 @@ __all__ = [
     'separated',
     'simulate',
     'simulate_many',
+    'source_hash',
     'table_from_fields',
     'table_to_fields',
     'two_ball_collision',
+    'unit_vectors',
 ]

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from pool_sim_ros.physics.table import Table
 
 PLAYED, BAD_LAYOUT, TOO_MANY_EVENTS, RUNS_AWAY = 0, 1, 2, 3
 """Values of `Outcomes.failed`."""
@@ -101,6 +107,52 @@ class Outcomes(NamedTuple):
     failed: NDArray[np.int8]
     events: NDArray[np.void] | None
     offsets: NDArray[np.int64] | None
+
+    def __repr__(self) -> str:
+        shots, balls = (*np.shape(self.finals), 0, 0)[:2]
+        words = f'{shots} shots, {balls} balls'
+        if self.events is not None:
+            words += f', {len(self.events)} events'
+        if failed := int(np.count_nonzero(self.failed)):
+            words += f', {failed} failed'
+        return f'<Outcomes {words}>'
+
+    def to_xarray(self, table: Table | None = None) -> xarray.Dataset:
+        """Return a dataset of xarray with all but the events (extra `frames`).
+
+        Parameters
+        ----------
+        table : Table, optional
+            That was played on. Its labels then name the balls, else their numbers do.
+
+        Returns
+        -------
+        xarray.Dataset
+            With the dimensions `shot`, `ball` and `axis`, and the units as attributes of the
+            variables. The version of this package is an attribute of the whole, and so is the
+            table, as JSON.
+
+        Raises
+        ------
+        ValueError
+            Where the table has another number of balls.
+        ModuleNotFoundError
+            Where xarray is not installed; names the extra.
+        """
+        from pool_sim_ros.physics.frames import outcomes_dataset
+
+        return outcomes_dataset(self, table)
+
+    def events_frame(self, table: Table | None = None) -> pandas.DataFrame:
+        """Return the events of all shots as a frame of pandas, as `Trajectory.events_frame`.
+
+        A column `shot` stands before the others; without a table no column has labels. Raises
+        ValueError where no events were kept, or the table has another number of balls;
+        ModuleNotFoundError where pandas is not installed.
+        """
+        from pool_sim_ros.physics.frames import outcomes_events_frame
+
+        return outcomes_events_frame(self, table)
 
 
 def new_outcomes(shots: int, balls: int, out: Outcomes | None, pockets: bool = False) -> Outcomes:

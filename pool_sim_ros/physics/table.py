@@ -146,6 +146,11 @@ class Table:
     def __repr__(self) -> str:
         return f'<Table {self.length:g} x {self.width:g} m, {self.motion}, {len(self.balls)} balls>'
 
+    def _repr_html_(self) -> str:
+        from pool_sim_ros.physics.svg import table_html
+
+        return table_html(self)
+
     def __eq__(self, other: object) -> bool:
         return self._key == other._key if isinstance(other, Table) else NotImplemented
 

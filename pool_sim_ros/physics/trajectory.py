@@ -6,10 +6,12 @@ import math
 import os
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pool_sim_ros.extras import needs
 from pool_sim_ros.physics.jit import for_kernels
 from pool_sim_ros.physics.look_up import look_up, look_up_spins
 from pool_sim_ros.physics.motion import BallTable
@@ -17,6 +19,11 @@ from pool_sim_ros.physics.orientation import look_up_orientations, unit_quaterni
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import PATH_SAG, STRAIGHT
 from pool_sim_ros.physics.validation import array, whole_number
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -61,6 +68,11 @@ class Trajectory:
         counts = f'{len(self.final_positions)} balls, {len(self.events)} events'
         return f'<Trajectory {self.duration:.4g} s, {counts}{"" if self.complete else ", cut"}>'
 
+    def _repr_html_(self) -> str:
+        from pool_sim_ros.physics.svg import shot_html
+
+        return shot_html(self)
+
     @cached_property
     def pocketed(self) -> NDArray[np.int64]:
         """Number of the pocket in which each ball is at the end, (n,); -1 for none."""
@@ -80,6 +92,37 @@ class Trajectory:
         from pool_sim_ros.physics.trajectory_file import load_trajectory
 
         return load_trajectory(path)
+
+    def plot(self, axes: Axes | None = None) -> Axes:
+        """Draw the paths of the balls, in m, into `axes` of matplotlib or new ones (extra `plot`).
+
+        Raises ModuleNotFoundError where matplotlib is not installed.
+        """
+        with needs('plot()', 'plot'):
+            from pool_sim_ros.physics.pictures import plot
+        return plot(self, axes)
+
+    def animate(
+        self, speed: float = 1.0, fps: float = 30.0, axes: Axes | None = None
+    ) -> FuncAnimation:
+        """Return a film of the shot, which a notebook shows (extra `plot`).
+
+        `speed` is how many times as fast as the balls it runs, `fps` its frames a second. Raises
+        ValueError for more than 2000 frames, ModuleNotFoundError without matplotlib.
+        """
+        with needs('animate()', 'plot'):
+            from pool_sim_ros.physics.pictures import Film
+        return Film(self, speed, fps, axes)
+
+    def events_frame(self) -> pandas.DataFrame:
+        """Return `events` as a frame of pandas (extra `frames`).
+
+        `kind` is in words, `ball` and `other` are the labels of the balls. Raises
+        ModuleNotFoundError where pandas is not installed.
+        """
+        from pool_sim_ros.physics.frames import events_frame
+
+        return events_frame(self.events, self.table.labels)
 
     def positions(self, times: ArrayLike) -> NDArray[np.float64]:
         """Return where the balls are.

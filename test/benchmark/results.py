@@ -24,6 +24,7 @@ SECTIONS = (
     "Planners' calls on the report's table, one core",
     'Many balls, everything moving, one core',
     'Balls that spin, one core',
+    'Environments, one core',
     'Memory',
     'Starting',
 )

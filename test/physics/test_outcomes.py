@@ -96,3 +96,14 @@ def test_a_part_of_the_ends_is_the_same_memory():
 
 def test_a_shot_too_long_is_a_bad_value():
     assert issubclass(ShotTooLong, ValueError)
+
+
+def test_its_repr_is_one_short_line():
+    outcomes = new_outcomes(500, 3, None)
+    outcomes.failed[:] = 0
+    assert repr(outcomes) == '<Outcomes 500 shots, 3 balls>'
+    outcomes.failed[7:9] = 2
+    outcomes.event_counts[:] = 0
+    shown = repr(with_events(outcomes, np.empty(40, EVENT)))
+    assert shown == '<Outcomes 500 shots, 3 balls, 40 events, 2 failed>'
+    assert repr(Outcomes(*[None] * 8)) == '<Outcomes 0 shots, 0 balls>'

@@ -82,6 +82,11 @@ try:
     check_layout(pool, pool.positions)
 except ShotTooLong:
     pool = table_from_fields(table_to_fields(pool))
+shot.plot(axes=shot.plot()).set_title('a shot')
+shot.animate(speed=0.5, fps=25).save('shot.mp4')
+shot.events_frame().groupby('kind')
+many.events_frame(pool).groupby('shot')
+many.to_xarray(pool).sel(ball='9')
 compile_kernels(table)
 laws: list[str] = [*BALL_FRICTION_LAWS, *INTEGRATORS]
 """
@@ -103,6 +108,8 @@ pool_table('10ft')
 simulate_many(table, [(1.0, 0.0)], errors='ignore')
 simulate(table, (1.0, 0.0)).spins()
 aim_at(table, 0, 1)
+simulate(table, (1.0, 0.0)).animate(speed='slow')
+simulate_many(table, [(1.0, 0.0)]).to_xarray('report')
 table.index(9)
 collide_cushion((1.0, 0.0, 0.0), 3, (1.0, 0.0), R=0.03, h=0.04, e=0.9, f=0.2, model='x')
 """

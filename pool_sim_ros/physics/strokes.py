@@ -1,0 +1,92 @@
+"""Many strokes of a cue at once, and many directions."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pool_sim_ros.physics.cue import (
+    CUE_MASS,
+    END_MASS_RATIO,
+    MISCUE_OFFSET,
+    SPIN_PER_OFFSET,
+    struck,
+)
+from pool_sim_ros.physics.table import Table
+from pool_sim_ros.physics.tolerances import ROUNDING_OF_OFFSET
+
+Floats = NDArray[np.float64]
+
+
+def cue_strikes(
+    table: Table,
+    speed: ArrayLike,
+    azimuth: ArrayLike,
+    elevation: ArrayLike = 0.0,
+    side: ArrayLike = 0.0,
+    above: ArrayLike = 0.0,
+) -> tuple[Floats, Floats]:
+    """Return the velocities and the spins that strokes give the cue ball, as `cue_strike` does.
+
+    Parameters
+    ----------
+    table : Table
+        Whose cue ball is struck, ``table.balls[0]``.
+    speed, azimuth, elevation, side, above : array_like
+        As of `cue_strike`: m/s, degrees, and parts of the radius; of one shape (m,), or numbers.
+
+    Returns
+    -------
+    velocities : ndarray of shape (m, 2)
+        m/s. NaN where the tip slips off (a miscue), and where the speed is below 0 or the elevation
+        not from 0 to 90.
+    spins : ndarray of shape (m, 3)
+        rad/s, NaN as above.
+
+    Raises
+    ------
+    ValueError
+        Where the shapes do not go together.
+    """
+    given = (np.asarray(each, dtype=float) for each in (speed, azimuth, elevation, side, above))
+    speeds, azimuths, elevations, sides, aboves = np.broadcast_arrays(*given)
+    forward = unit_vectors(azimuths)
+    turn = _squirt(sides)
+    along = forward[0] * turn[0] - forward[1] * turn[1], forward[0] * turn[1] + forward[1] * turn[0]
+    directions = forward, unit_vectors(elevations)
+    velocity, spin = struck(table, CUE_MASS, speeds, directions, (sides, aboves), along)
+    velocities, spins = np.stack(velocity, axis=-1), np.stack(spin, axis=-1)
+    offsets = np.sqrt(sides * sides + aboves * aboves)
+    right = (offsets <= MISCUE_OFFSET + ROUNDING_OF_OFFSET) & (speeds >= 0.0)
+    right &= (elevations >= 0.0) & (elevations <= 90.0)
+    velocities[~right] = spins[~right] = np.nan
+    return velocities, spins
+
+
+def unit_vectors(degrees: ArrayLike) -> tuple[Floats, Floats]:
+    """Return cosines and sines of any shape, exactly 0 and 1 at right angles.
+
+    Parameters
+    ----------
+    degrees : array_like
+        Each value gives the same bits, wherever it stands.
+    """
+    angles = np.asarray(degrees, dtype=float)
+    quarters = np.rint(angles / 90.0)
+    rest = np.radians(angles - 90.0 * quarters)
+    x, y = np.cos(rest), np.sin(rest)
+    quarter = quarters % 4.0
+    odd = quarter % 2.0 == 1.0
+    cosines, sines = np.where(odd, -y, x), np.where(odd, x, y)
+    turned = quarter >= 2.0
+    # Adding 0 makes the zeros of both signs one.
+    return np.where(turned, -cosines, cosines) + 0.0, np.where(turned, -sines, sines) + 0.0
+
+
+def _squirt(side: Floats) -> tuple[Floats, Floats]:
+    """Return cosines and sines of the angles by which squirt turns the velocities."""
+    depth = np.maximum(1.0 - side * side, 0.0)
+    away = SPIN_PER_OFFSET * side * np.sqrt(depth)
+    ahead = 1.0 + END_MASS_RATIO + SPIN_PER_OFFSET * depth
+    size = np.sqrt(away * away + ahead * ahead)
+    return ahead / size, -away / size

@@ -1,0 +1,39 @@
+"""Random numbers by the index of the shot: which chunk or worker draws them changes nothing.
+
+Philox (Salmon et al., SC 2011) makes four words of a key and a counter. Here the key is the seed
+and the name of what is drawn, and the counter is the index of the shot.
+"""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+from numpy.typing import NDArray
+
+WORDS = 4
+"""That Philox makes of one value of its counter."""
+
+BELOW_ONE = 2.0**-53
+"""Makes a number from 0 up to 1 of the upper 53 bits of a word."""
+
+
+def words_of(seed: int, name: str, first: int, count: int) -> NDArray[np.uint64]:
+    """Return the words of so many shots from the first one on, (count, 4)."""
+    digest = hashlib.blake2b(f'{seed} {name}'.encode(), digest_size=16).digest()
+    generator = np.random.Philox(key=int.from_bytes(digest, 'little'), counter=first)
+    drawn: NDArray[np.uint64] = generator.random_raw(WORDS * count)
+    return drawn.reshape(count, WORDS)
+
+
+def uniforms(words: NDArray[np.uint64]) -> NDArray[np.float64]:
+    """Return numbers from 0 up to 1, of the same shape."""
+    return (words >> np.uint64(11)).astype(np.float64) * BELOW_ONE
+
+
+def normals(words: NDArray[np.uint64]) -> NDArray[np.float64]:
+    """Return standard normal numbers for words of shape (m, 4), as many (Box and Muller, 1958)."""
+    numbers = uniforms(words)
+    radii = np.sqrt(-2.0 * np.log(1.0 - numbers[:, :2]))
+    angles = (2.0 * np.pi) * numbers[:, 2:]
+    return np.concatenate([radii * np.cos(angles), radii * np.sin(angles)], axis=1)
