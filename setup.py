@@ -85,6 +85,7 @@ setup(
         'report': ['imageio-ffmpeg', 'latex2mathml', 'matplotlib', 'pyyaml', 'tqdm'],
         'web': ['aiohttp'],
         'record': ['rosbags'],
+        'fit': ['scipy'],
         'gym': ['gymnasium>=1.1'],
         'plot': ['matplotlib'],
         'frames': ['pandas', 'xarray'],

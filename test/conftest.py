@@ -29,7 +29,7 @@ OPTIONAL = {
         'matplotlib',
         'mcap',
     ],
-    *['mpmath', 'packaging', 'pandas', 'playwright', 'rosbags', 'tqdm', 'xarray', 'yaml'],
+    *['mpmath', 'packaging', 'pandas', 'playwright', 'rosbags', 'scipy', 'tqdm', 'xarray', 'yaml'],
     *['diagnostic_msgs', 'geometry_msgs', 'rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'std_msgs'],
     *['std_srvs', 'visualization_msgs', 'ament_index_python'],
 }

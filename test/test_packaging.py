@@ -91,7 +91,7 @@ def test_package_xml_is_valid_without_a_warning():
     assert {dependency.name for dependency in package.exec_depends} == {
         "rclpy", "std_msgs", "geometry_msgs", "std_srvs", "visualization_msgs",
         "diagnostic_msgs", "rosgraph_msgs", "python3-numpy", "python3-numba", "rviz2", "ros2launch",
-        "python3-aiohttp", "python3-matplotlib", "python3-tqdm", "python3-yaml",
+        "python3-aiohttp", "python3-matplotlib", "python3-scipy", "python3-tqdm", "python3-yaml",
     }  # fmt: skip
     assert {dependency.name for dependency in package.test_depends} == {
         "ament_index_python", "python3-catkin-pkg-modules", "python3-hypothesis",

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
         collide_cushion,
         two_ball_collision,
     )
-    from pool_sim_ros.physics.cue import cue_strike
+    from pool_sim_ros.physics.cue import MISCUE_OFFSET, cue_strike, cue_strikes
     from pool_sim_ros.physics.cushions import Cushions
     from pool_sim_ros.physics.game_tables import pool_table
     from pool_sim_ros.physics.integrators import INTEGRATORS, REPORT_TIME_SLICE, Integrator
@@ -90,7 +90,9 @@ else:
             'collide_balls': 'contacts',
             'collide_cushion': 'contacts',
             'compile_kernels': 'shots',
+            'MISCUE_OFFSET': 'cue',
             'cue_strike': 'cue',
+            'cue_strikes': 'cue',
             'pool_table': 'game_tables',
             'pool_table_dimensions': 'pool_tables',
             'rack': 'racks',
@@ -111,6 +113,7 @@ __all__ = [
     'FRICTION_BOUNDS',
     'INCH',
     'INTEGRATORS',
+    'MISCUE_OFFSET',
     'MOTIONS',
     'REPORT_TIME_SLICE',
     'Ball',
@@ -139,6 +142,7 @@ __all__ = [
     'collide_cushion',
     'compile_kernels',
     'cue_strike',
+    'cue_strikes',
     'pool_table',
     'pool_table_dimensions',
     'rack',

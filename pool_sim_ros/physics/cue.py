@@ -7,11 +7,12 @@ Alciatore's technical proofs A.30 (speed and spin) and A.31 (squirt).
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.balls import MASSES
+from pool_sim_ros.physics.balls import MASSES, Ball
 from pool_sim_ros.physics.table import Table
 from pool_sim_ros.physics.tolerances import MAX_SPEED, ROUNDING_OF_OFFSET
 from pool_sim_ros.physics.validation import number
@@ -93,6 +94,64 @@ def cue_strike(
     cue_mass = number('cue_mass', cue_mass, *MASSES)
     turn = (1.0, 0.0) if end_mass_ratio is None else _squirt(side, end_mass_ratio)
 
+    velocity, spin = _struck(ball, cue_mass, speed, (forward, turn), (cosine, sine), (side, above))
+    return np.array(velocity), np.array(spin)
+
+
+def cue_strikes(
+    table: Table, strokes: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
+    """Return the velocities and the spins that many strokes give the cue ball.
+
+    Parameters
+    ----------
+    table : Table
+        Whose cue ball is struck, ``table.balls[0]``.
+    strokes : ndarray of shape (m, 5)
+        Speed (m/s), azimuth and elevation (degrees), side and above (radii), as `cue_strike` takes
+        them; the cue and its end have the masses that are its defaults.
+
+    Returns
+    -------
+    velocities : ndarray of shape (m, 2)
+        m/s.
+    spins : ndarray of shape (m, 3)
+        rad/s, z up.
+    holds : ndarray of bool, (m,)
+        False where the tip hits more than `MISCUE_OFFSET` from the middle and slips off; nothing is
+        given to the ball then.
+    """
+    speed, azimuth, elevation, side, above = strokes.T
+    holds = np.hypot(side, above) <= MISCUE_OFFSET + ROUNDING_OF_OFFSET
+    side, above = np.where(holds, side, 0.0), np.where(holds, above, 0.0)
+    away, ahead = _squirt_legs(side, END_MASS_RATIO)
+    size = np.hypot(away, ahead)
+    phi, theta = np.radians(azimuth), np.radians(elevation)
+    velocity, spin = _struck(
+        table.balls[0],
+        CUE_MASS,
+        np.where(holds, speed, 0.0),
+        ((np.cos(phi), np.sin(phi)), (ahead / size, -away / size)),
+        (np.cos(theta), np.sin(theta)),
+        (side, above),
+    )
+    return np.stack(velocity, axis=-1), np.stack(spin, axis=-1), holds
+
+
+def _struck(
+    ball: Ball,
+    cue_mass: float,
+    speed: Any,
+    directions: tuple[tuple[Any, Any], tuple[Any, Any]],
+    tilt: tuple[Any, Any],
+    offsets: tuple[Any, Any],
+) -> tuple[tuple[Any, Any], tuple[Any, Any, Any]]:
+    """Return velocity and spin of one stroke, or of many where the values are arrays.
+
+    `directions` are where the cue points and how far squirt turns the velocity, each as cosine and
+    sine, as is `tilt`, the elevation of the cue.
+    """
+    (forward, turn), (cosine, sine), (side, above) = directions, tilt, offsets
     offset = SPIN_PER_OFFSET * (side * side + above * above)
     ball_speed = 2.0 * speed / (1.0 + ball.mass / cue_mass + offset)
     along = _turned(forward, turn)
@@ -101,13 +160,11 @@ def cue_strike(
     # About the axes of the cue: to the left, backwards, up.
     left, backward = rate * above, rate * side * sine
     return (
-        np.array([level * along[0], level * along[1]]),
-        np.array(
-            [
-                -left * forward[1] - backward * forward[0],
-                left * forward[0] - backward * forward[1],
-                -rate * side * cosine,
-            ]
+        (level * along[0], level * along[1]),
+        (
+            -left * forward[1] - backward * forward[0],
+            left * forward[0] - backward * forward[1],
+            -rate * side * cosine,
         ),
     )
 
@@ -123,15 +180,18 @@ def _check_offset(side: float, above: float, most: float) -> None:
 
 def _squirt(side: float, end_mass_ratio: float) -> tuple[float, float]:
     """Return the cosine and the sine of the angle by which squirt turns the velocity."""
-    ratio = number('end_mass_ratio', end_mass_ratio, above=0.0)
-    depth = max(1.0 - side * side, 0.0)
-    away = SPIN_PER_OFFSET * side * math.sqrt(depth)
-    ahead = 1.0 + ratio + SPIN_PER_OFFSET * depth
+    away, ahead = _squirt_legs(side, number('end_mass_ratio', end_mass_ratio, above=0.0))
     size = math.hypot(away, ahead)
     return ahead / size, -away / size
 
 
-def _turned(vector: tuple[float, float], turn: tuple[float, float]) -> tuple[float, float]:
+def _squirt_legs(side: Any, ratio: float) -> tuple[Any, Any]:
+    """Return how far the ball goes aside and ahead, in one unit."""
+    depth = np.maximum(1.0 - side * side, 0.0)
+    return SPIN_PER_OFFSET * side * np.sqrt(depth), 1.0 + ratio + SPIN_PER_OFFSET * depth
+
+
+def _turned(vector: tuple[Any, Any], turn: tuple[Any, Any]) -> tuple[Any, Any]:
     (x, y), (cosine, sine) = vector, turn
     return x * cosine - y * sine, x * sine + y * cosine
 

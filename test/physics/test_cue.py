@@ -8,7 +8,7 @@ import pytest
 from billiards import anchors, oracle
 from tables import table_of
 
-from pool_sim_ros.physics import cue_strike
+from pool_sim_ros.physics import MISCUE_OFFSET, cue_strike, cue_strikes
 
 RADIUS, MASS = 0.028575, 0.170097
 TABLE = table_of([(1.0, 0.5)], radius=RADIUS, mass=MASS)
@@ -139,3 +139,21 @@ def test_bad_input(name, value, shown):
         cue_strike(TABLE, **{'speed': 1.0, 'azimuth': 0.0, name: value})
     message = str(caught.value)
     assert message.startswith(f'{name}: ') and shown in message and '\n' not in message
+
+
+def test_many_strokes_are_strokes_one_by_one():
+    rng = np.random.default_rng(1)
+    strokes = rng.uniform((0, -400, 0, -0.35, -0.35), (6, 400, 90, 0.35, 0.35), (50, 5))
+    velocities, spins, holds = cue_strikes(TABLE, strokes)
+    assert holds.all()
+    for stroke, velocity, spin in zip(strokes, velocities, spins, strict=True):
+        expected = cue_strike(TABLE, *stroke)
+        np.testing.assert_allclose(velocity, expected[0], rtol=0, atol=1e-13)
+        np.testing.assert_allclose(spin, expected[1], rtol=0, atol=1e-10)
+
+
+def test_a_tip_that_slips_off_gives_nothing():
+    strokes = np.array([[2.0, 30.0, 0.0, 0.0, MISCUE_OFFSET], [2.0, 30.0, 0.0, 0.4, 0.4]])
+    velocities, spins, holds = cue_strikes(TABLE, strokes)
+    assert holds.tolist() == [True, False]
+    assert np.hypot(*velocities[0]) > 2.0 and not velocities[1].any() and not spins[1].any()

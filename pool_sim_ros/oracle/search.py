@@ -1,0 +1,180 @@
+"""`find_shots`: the shots that most likely meet a goal, given how badly one shoots and sees."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pool_sim_ros.oracle.assess import assess
+from pool_sim_ros.oracle.checks import checked_positions, time_allowed, whole
+from pool_sim_ros.oracle.climb import climb
+from pool_sim_ros.oracle.goal import Goal, goal_of
+from pool_sim_ros.oracle.noise import Noise, NoiseName, noise_of
+from pool_sim_ros.oracle.plan import Plan
+from pool_sim_ros.oracle.race import common, race
+from pool_sim_ros.oracle.space import FINEST, Space, checked_space
+from pool_sim_ros.oracle.sweep import Sweep
+from pool_sim_ros.oracle.trials import Trials
+from pool_sim_ros.physics import Table
+
+SWEEP, RACE, CLIMB, COMPARE, FRESH = 0.62, 0.16, 0.10, 0.05, 0.07
+"""Shares of the shots. A good map matters most: what it misses nobody finds later."""
+
+DEADLINES = {'sweep': 0.65, 'race': 0.8, 'climb': 0.9}
+"""Shares of `seconds` after which a stage ends, so that those after it have some time left."""
+
+CLIMBERS, CLIMBS = 4, 2
+"""Aims that climb, and how often."""
+
+PEAKS = 256
+"""Of the map that are raced."""
+
+DIFFERENT = 2.0
+"""Standard deviations between two shots of an answer: closer ones are the same shot."""
+
+FEWEST = 1000
+"""Shots below which a search would find nothing but luck."""
+
+
+def find_shots(
+    table: Table,
+    goal: Goal | dict[str, Any],
+    noise: Noise | NoiseName | dict[str, float],
+    shots: int = 330_000,
+    seed: int = 0,
+    seconds: float | None = None,
+    threads: int | None = None,
+    *,
+    positions: ArrayLike | None = None,
+    count: int = 5,
+    speeds: tuple[float, float] = (0.3, 5.0),
+    offset: float = 0.0,
+) -> Plan:
+    """Search for the shots that most likely meet a goal.
+
+    Parameters
+    ----------
+    table : Table
+        Its first ball is the cue ball.
+    goal : Goal, or its fields
+    noise : Noise, its fields, or the name of a preset
+        How badly the shot is executed, and how badly the balls were seen.
+    shots : int, optional
+        That are played, about; at least 1000. They alone decide what is found. Where a goal is met
+        so seldom that the sweep goes on, they are up to 1.4 times as many.
+    seed : int, optional
+        The same seed gives the same answer, whatever the number of threads.
+    seconds : float, optional
+        Ends the search, between two rounds, before all shots are played; the answer then says so.
+    threads : int, optional
+        At most so many; by default one for each core.
+    positions : array_like of shape (n, 2), optional
+        Where the balls were seen instead of their own places, m.
+    count : int, optional
+        Shots to return, at most.
+    speeds : (float, float), optional
+        Least and greatest speed sought, m/s: of the cue where balls spin, otherwise of the ball.
+    offset : float, optional
+        Greatest offset of the tip that is sought, radii; 0 aims at the middle of the ball. Only
+        where balls spin; give more `shots` with it.
+
+    Returns
+    -------
+    Plan
+        The shots, best first, none where none was found.
+
+    Raises
+    ------
+    ValueError
+        For a goal that the table cannot have, and for values out of range; names them.
+
+    Examples
+    --------
+    >>> from pool_sim_ros.physics import report_table
+    >>> goal = Goal(ball='9', to=(0.3, 0.2), within=0.2)
+    >>> plan = find_shots(report_table(), goal, Noise(speed=0.05, azimuth=0.2), shots=40_000)
+    >>> plan[0].chance > 0.3
+    True
+    """
+    begin = time.perf_counter()
+    shots, seed, count = (
+        whole('shots', shots, FEWEST),
+        whole('seed', seed),
+        whole('count', count, 1),
+    )
+    allowed = time_allowed(seconds)
+    space = checked_space(table, speeds, offset)
+    seen = checked_positions(table, positions)
+    trials = Trials(table, goal_of(goal), noise_of(noise), seen, threads)
+    cut = []
+
+    def late(stage: str) -> Callable[[], bool]:
+        def is_late() -> bool:
+            if time.perf_counter() - begin > allowed * DEADLINES[stage]:
+                cut.append(stage)
+            return bool(cut)
+
+        return is_late
+
+    sweep = Sweep(trials, space, int(SWEEP * shots), seed)
+    sweep.go_on(int(SWEEP * shots), late('sweep'))
+    if sweep.met == 0 and not cut:
+        sweep.go_on(shots, late('sweep'))
+    if sweep.met == 0:
+        return Plan((), trials.played, bool(cut))
+    # What a cut sweep did not play nobody plays later either.
+    budget = min(shots, int(trials.played / SWEEP))
+    swept_all = not cut
+    cut.clear()
+    aims = race(trials, space, sweep.peaks(PEAKS), int(RACE * budget), seed, late('race'))
+    aims = climb_best(trials, space, aims, (int(CLIMB * budget), count), seed, late('climb'))
+    best = rank(trials, space, aims, (int(COMPARE * budget), count), seed)
+    fresh = max(int(FRESH * budget) // len(best), 100)
+    ranked = [
+        assess(trials, aim, fresh, np.random.default_rng([seed, 6, k]))
+        for k, aim in enumerate(best)
+    ]
+    found = [shot for shot in ranked if shot.chance > 0.0]
+    return Plan(found, trials.played, bool(cut) or not swept_all)
+
+
+def climb_best(
+    trials: Trials,
+    space: Space,
+    aims: NDArray[np.float64],
+    budget: tuple[int, int],
+    seed: int,
+    late: Callable[[], bool],
+) -> NDArray[np.float64]:
+    """Return the aims, (k, 5), those of the best ones that climbed first, then as they were."""
+    shots, count = budget
+    climbers = min(CLIMBERS, len(aims))
+    each = max(shots // (CLIMBS * CLIMBERS), 64)
+    climbed = aims[:climbers].copy()
+    for turn in range(CLIMBS):
+        if late():
+            break
+        for k in range(climbers):
+            rng = np.random.default_rng([seed, 4, turn, k])
+            climbed[k] = climb(trials, space, climbed[k], each, rng)
+    return np.concatenate([climbed, aims[: max(count, climbers)]])
+
+
+def rank(
+    trials: Trials,
+    space: Space,
+    aims: NDArray[np.float64],
+    budget: tuple[int, int],
+    seed: int,
+) -> NDArray[np.float64]:
+    """Return the best aims, (k, 5), best first, by shots with noise that they share."""
+    shots, count = budget
+    each = max(shots // len(aims), 64)
+    met, _ = common(trials, aims, each, [seed, 5])
+    order = np.argsort(-met.sum(axis=1), kind='stable')
+    apart = DIFFERENT * np.maximum(trials.spread, FINEST)
+    return aims[space.distinct(aims, order, count, apart)]
