@@ -2,7 +2,7 @@
 
 PYTHON ?= python3
 VENV ?= .venv
-EXTRAS = jazzy,report,web,record,fit,gym,plot,frames,test
+EXTRAS = jazzy,report,web,record,fit,gym,plot,frames,docs,test
 PY = $(VENV)/bin/python
 
 # The versions that CI has tested, for every Python: without them, next year's newest could break

@@ -89,6 +89,7 @@ setup(
         'gym': ['gymnasium>=1.1'],
         'plot': ['matplotlib'],
         'frames': ['pandas', 'xarray'],
+        'docs': ['furo', 'myst-parser', 'numpydoc', 'sphinx'],
         'bench': ['pytest-benchmark', 'tqdm'],
         'test': [
             'catkin_pkg',
@@ -97,9 +98,11 @@ setup(
             'cyclonedds',  # sends what rclpy cannot
             'hypothesis',
             'import-linter>=2.5',
+            'ipykernel',  # runs the notebooks
             'mcap',
             'mpmath',
             'mypy>=1.15',
+            'nbclient',
             'packaging',
             'pip>=22.3',  # its option --python
             'playwright',  # drives the Chromium that the system has
