@@ -65,6 +65,10 @@ def read_tracks(table: Table, paths: Sequence[str | os.PathLike[str]]) -> list[T
         Whose labels stand in the column `ball`.
     paths : sequence of path
 
+    Returns
+    -------
+    list of Track
+
     Raises
     ------
     OSError
