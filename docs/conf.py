@@ -17,16 +17,14 @@ author = project_copyright = 'pool_sim_ros maintainers'
 release = version = pool_sim_ros.__version__
 
 extensions = ['myst_parser', 'numpydoc', 'sphinx.ext.autodoc', 'sphinx.ext.autosummary']
-exclude_patterns = ['_site']
 
 html_theme = 'furo'
 html_title = project
-html_static_path = ['static']
-html_css_files = ['site.css']
 html_show_sourcelink = False
 html_copy_source = False
 
 nitpicky = True
+default_role = 'literal'  # single backticks in docstrings
 myst_heading_anchors = 4
 
 autodoc_member_order = 'bysource'

@@ -75,12 +75,8 @@ def test_a_notebook_runs(notebook, tmp_path, monkeypatch):
     book = nbformat.read(notebook, as_version=4)
     client = NotebookClient(book, timeout=300, resources={'metadata': {'path': str(tmp_path)}})
     client.execute()
-    kinds = {
-        kind
-        for cell in book.cells
-        for output in cell.get('outputs', ())
-        for kind in output.get('data', ())
-    }
+    outputs = [output for cell in book.cells for output in cell.get('outputs', ())]
+    kinds = {kind for output in outputs for kind in output.get('data', ())}
     assert 'image/png' in kinds
 
 
