@@ -1,4 +1,4 @@
-"""A ROS 2 node that rides along: it strikes, hears every contact, and strikes again at rest.
+"""A ROS 2 node that rides along: it strikes, tells hard contacts, and strikes again at rest.
 
     ros2 run pool_sim_ros sim_node          # in one terminal, or: make play
     python examples/ride_along.py           # in another
@@ -19,9 +19,11 @@ from std_msgs.msg import Float64MultiArray, String
 PATIENCE = 30.0
 """Seconds of silence after which it gives up."""
 
-BALLS, CUSHION = 0, 1
-"""Kinds of contacts in `~/collisions`, and the columns of a row."""
 COLUMNS = ('seq', 't', 'kind', 'a', 'b', 'x', 'y', 'nx', 'ny', 'speed')
+"""Of a row of `~/collisions`; kind 0 is a contact of two balls."""
+
+HARD = 1.0
+"""Closing speed above which a contact is told, m/s."""
 
 
 class Rider(Node):
@@ -43,7 +45,7 @@ class Rider(Node):
 
     def strike_anew(self):
         """Choose a strike, with an id of its own: the simulator plays each id once."""
-        self.id, self.contacts = uuid.uuid4().hex, 0
+        self.id = uuid.uuid4().hex
         self.velocity = [self.random.uniform(-4.0, -1.0), self.random.uniform(-1.0, 1.0)]
 
     def ask(self):
@@ -63,7 +65,7 @@ class Rider(Node):
         if response['phase'] != 'done':
             raise SystemExit(f'{response["phase"]}: {response["reason"]}')
         x, y = response['final_positions']['C']
-        print(f'{self.contacts} contacts; the cue ball rests at ({x:.3f}, {y:.3f}) m')
+        print(f'The cue ball rests at ({x:.3f}, {y:.3f}) m.', flush=True)
         self.left -= 1
         if not self.left:
             raise SystemExit
@@ -72,12 +74,11 @@ class Rider(Node):
         self.ask()
 
     def on_collisions(self, message):
-        """Hear the contacts up to the next frame, and tell the hard ones between balls."""
+        """Hear the contacts up to the next frame, as they come, and tell the hard ones of balls."""
         width = len(COLUMNS)
         for start in range(0, len(message.data), width):
             row = dict(zip(COLUMNS, message.data[start : start + width], strict=True))
-            self.contacts += row['kind'] in (BALLS, CUSHION)
-            if row['kind'] == BALLS and row['speed'] > 1.0:
+            if row['kind'] == 0 and row['speed'] > HARD:
                 print(f'  {row["t"]:8.3f} s: balls meet at {row["speed"]:.1f} m/s')
 
     def give_up(self):
