@@ -17,6 +17,8 @@ COMMANDS = [
     'report = pool_sim_ros.report.command:main',
     'web_view = pool_sim_ros.web_view.command:main',
     'record_shot = pool_sim_ros.cli.record_shot:main',
+    'oracle = pool_sim_ros.cli.oracle:main',
+    'aim = pool_sim_ros.cli.aim:main',
 ]
 
 # Only names that start with ros-jazzy- are bound to Jazzy: without it they are newer distributions.
@@ -26,6 +28,7 @@ JAZZY = [
     'ros-jazzy-diagnostic-msgs==5.3.*',
     'ros-jazzy-geometry-msgs==5.3.*',
     'ros-jazzy-rosgraph-msgs==2.0.*',
+    'ros-jazzy-sensor-msgs==5.3.*',
     'ros-jazzy-std-msgs==5.3.*',
     'ros-jazzy-std-srvs==5.3.*',
     'ros-jazzy-visualization-msgs==5.3.*',

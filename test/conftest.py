@@ -30,8 +30,16 @@ OPTIONAL = {
         'mcap',
     ],
     *['mpmath', 'packaging', 'pandas', 'playwright', 'rosbags', 'scipy', 'tqdm', 'xarray', 'yaml'],
-    *['diagnostic_msgs', 'geometry_msgs', 'rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'std_msgs'],
-    *['std_srvs', 'visualization_msgs', 'ament_index_python'],
+    *['ipykernel', 'nbclient', 'nbformat', 'numpydoc', 'sphinx'],
+    *[
+        'diagnostic_msgs',
+        'geometry_msgs',
+        'rcl_interfaces',
+        'rclpy',
+        'rosgraph_msgs',
+        'sensor_msgs',
+    ],
+    *['std_msgs', 'std_srvs', 'visualization_msgs', 'ament_index_python'],
 }
 """Packages without which the other tests run: some have no apt package, and so no rosdep key."""
 

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.packaging
 PROJECT = Path(__file__).parents[1]
 MAKES_WHEELS = Version('70.1')
 """The first setuptools that needs no other package for a wheel."""
-COMMANDS = {'sim_node', 'shot', 'replay', 'report', 'web_view', 'record_shot'}
+COMMANDS = {'sim_node', 'shot', 'replay', 'report', 'web_view', 'record_shot', 'oracle', 'aim'}
 
 
 def skip_without_builders(*modules):
@@ -90,7 +90,8 @@ def test_package_xml_is_valid_without_a_warning():
     assert package.get_build_type() == 'ament_python'
     assert {dependency.name for dependency in package.exec_depends} == {
         "rclpy", "std_msgs", "geometry_msgs", "std_srvs", "visualization_msgs",
-        "diagnostic_msgs", "rosgraph_msgs", "python3-numpy", "python3-numba", "rviz2", "ros2launch",
+        "diagnostic_msgs", "rosgraph_msgs", "sensor_msgs", "python3-numpy", "python3-numba",
+        "rviz2", "ros2launch",
         "python3-aiohttp", "python3-matplotlib", "python3-scipy", "python3-tqdm", "python3-yaml",
     }  # fmt: skip
     assert {dependency.name for dependency in package.test_depends} == {

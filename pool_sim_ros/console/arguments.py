@@ -57,6 +57,13 @@ def positive(text: str) -> float:
     return value
 
 
+def count(text: str) -> int:
+    """Read a whole number above 0; raises ArgumentTypeError."""
+    if not (text.isascii() and text.isdigit() and len(text) <= 18 and int(text) > 0):
+        raise argparse.ArgumentTypeError(f'{text!r} is not a whole number above 0')
+    return int(text)
+
+
 def port(text: str) -> int:
     """Read the number of a port; raises ArgumentTypeError."""
     if not (text.isascii() and text.isdigit() and len(text) <= 5 and int(text) < 65536):

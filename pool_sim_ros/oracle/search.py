@@ -53,6 +53,7 @@ def find_shots(
     count: int = 5,
     speeds: tuple[float, float] = (0.3, 5.0),
     offset: float = 0.0,
+    on_round: Callable[[int], object] | None = None,
 ) -> Plan:
     """Search for the shots that most likely meet a goal.
 
@@ -82,6 +83,9 @@ def find_shots(
     offset : float, optional
         Greatest offset of the tip that is sought, radii; 0 aims at the middle of the ball. Only
         where balls spin; give more `shots` with it.
+    on_round : callable, optional
+        Called with the number of shots played: 0 once all is checked, and then between two rounds.
+        What it raises ends the search, and reaches the caller.
 
     Returns
     -------
@@ -111,10 +115,14 @@ def find_shots(
     space = checked_space(table, speeds, offset)
     seen = checked_positions(table, positions)
     trials = Trials(table, goal_of(goal), noise_of(noise), seen, threads)
-    cut = []
+    cut: list[str] = []
+    if on_round is not None:
+        on_round(0)
 
     def late(stage: str) -> Callable[[], bool]:
         def is_late() -> bool:
+            if on_round is not None:
+                on_round(trials.played)
             if time.perf_counter() - begin > allowed * DEADLINES[stage]:
                 cut.append(stage)
             return bool(cut)

@@ -70,8 +70,10 @@ class Topic(Endpoint):
     @property
     def publisher_qos(self) -> QoSProfile:
         """The QoS of its publisher."""
+        if self.kept is None:
+            return self.qos
         return QoSProfile(
-            depth=self.kept or self.qos.depth,
+            depth=self.kept,
             reliability=self.qos.reliability,
             durability=self.qos.durability,
         )

@@ -8,6 +8,9 @@ import re
 NODE_NAME = 'pool_sim'
 """The node's name unless it is renamed."""
 
+ORACLE_NAME = 'pool_oracle'
+"""The name of the oracle's node unless it is renamed."""
+
 LONGEST_NAME = 200
 """Characters of a node's name: those of its topics may have 247."""
 

@@ -59,6 +59,7 @@ if TYPE_CHECKING:
     )
     from pool_sim_ros.simulator.simulation import Simulation
     from pool_sim_ros.simulator.steps import Stepped
+    from pool_sim_ros.simulator.strict_json import read_json_object
     from pool_sim_ros.simulator.strikes import strike_on
     from pool_sim_ros.simulator.table_json import table_from_json, table_to_json
 else:
@@ -100,6 +101,7 @@ else:
             'parse_request': 'shot_request',
             'near_misses': 'parameter_names',
             'open_bounded': 'bounded_file',
+            'read_json_object': 'strict_json',
             'read_log': 'log_reader',
             'read_text': 'bounded_file',
             'replay_frames': 'replay',
@@ -155,6 +157,7 @@ __all__ = [
     'parse_request',
     'near_misses',
     'open_bounded',
+    'read_json_object',
     'read_log',
     'read_text',
     'replay_frames',

@@ -12,6 +12,7 @@ pages       the pages that are open
 commands    what a page may say
 frames      ball poses, from the bytes of ROS to those of the page
 prediction  where the balls would go
+helping     the shots most likely to do what somebody wants
 motion      a shot as fields for JSON
 strikes     the latest strike, computed anew
 exact       the exact result of a shot of the report

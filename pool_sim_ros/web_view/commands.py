@@ -24,6 +24,7 @@ _FIELDS: dict[str, tuple[tuple[str, ...], ...]] = {
     'speed': (('factor',),),
     'place': (('places',),),
     'undo': ((),),
+    'help': (('goal',),),
     'step': ((),),
     'reset': ((),),
 }
@@ -37,11 +38,11 @@ class Command:
     Attributes
     ----------
     name : str
-        aim (predict only), strike, shot, pause, speed, place, undo, step or reset.
+        aim (predict only), strike, shot, pause, speed, place, undo, help, step or reset.
     value : dict, int, bool, float or None
         aim, strike: the fields that a request has, velocity and spin, or cue; shot: a report shot's
         number; pause: bool; speed: the real time factor, 0 for as fast as possible; place: label to
-        [x, y] in m; else None.
+        [x, y] in m; help: the fields of a goal; else None.
     """
 
     name: str
@@ -94,6 +95,12 @@ def _places(value: object) -> dict[str, list[float]]:
     return {label: _numbers(place, 2, wrong) for label, place in value.items()}
 
 
+def _goal(value: object) -> dict[str, Any]:
+    if isinstance(value, dict):
+        return value  # the oracle says what is wrong with it
+    raise ValueError('goal must be an object like {"ball": "9", "pocket": "any"}')
+
+
 def _numbers(value: object, count: int, otherwise: str) -> list[float]:
     if isinstance(value, list) and len(value) == count and all(map(_is_finite, value)):
         return [float(number) for number in value]
@@ -135,4 +142,5 @@ _CHECKS: dict[str, Callable[[object], Any]] = {
     'paused': _paused,
     'factor': _factor,
     'places': _places,
+    'goal': _goal,
 }

@@ -163,3 +163,12 @@ def _play(
         'exact': exact,
         **motion_fields(shot, start),
     }
+
+
+def places_to_undo(table: Table, start: np.ndarray, now: np.ndarray) -> dict[str, list[float]]:
+    """Return where the balls that moved lay before, by label, given (n, 2) positions in m."""
+    return {
+        label: before.tolist()
+        for label, before, place in zip(table.labels, start, now, strict=True)
+        if not np.array_equal(before, place)
+    }

@@ -13,23 +13,14 @@ from rclpy.context import Context
 from pool_sim_ros.me212 import is_report_table, published_final_positions
 from pool_sim_ros.physics import Table, compile_kernels, table_to_fields
 from pool_sim_ros.ros import interface, messages
-from pool_sim_ros.simulator import (
-    Phase,
-    response_from_json,
-    state_from_json,
-    table_from_json,
-)
+from pool_sim_ros.simulator import Phase, response_from_json, state_from_json, table_from_json
 from pool_sim_ros.web_view.bridge import Bridge, NoAnswerError
 from pool_sim_ros.web_view.commands import Command, parse_command
-from pool_sim_ros.web_view.frames import (
-    are_collisions,
-    check_count,
-    frame_positions,
-    page_frame,
-)
+from pool_sim_ros.web_view.frames import are_collisions, check_count, frame_positions, page_frame
+from pool_sim_ros.web_view.helping import Helper
 from pool_sim_ros.web_view.pages import Page, Pages, message
 from pool_sim_ros.web_view.prediction import predict
-from pool_sim_ros.web_view.strikes import Strikes
+from pool_sim_ros.web_view.strikes import Strikes, places_to_undo
 
 SILENCE = 4
 """The simulator is gone after so many looks, one a second, without a `~/state`, which comes every
@@ -65,6 +56,7 @@ class View:
         self._struck: str | None = None
         self._strikes = Strikes(self._tell_strike, self._time_slice)
         self._printed = published_final_positions()
+        self._helper = Helper()
         self._loop = asyncio.get_running_loop()
         self._silence: asyncio.TimerHandle | None = None
         self._tasks: set[asyncio.Task[None]] = set()
@@ -106,6 +98,8 @@ class View:
             await self._bridge.request(place=command.value)
         elif command.name == 'undo':
             await self._undo()
+        elif command.name == 'help':
+            self._help(page, command.value)
         else:
             succeeded, words = await self._call(command)
             if not succeeded:
@@ -121,26 +115,33 @@ class View:
 
     async def _predict(self, strike: dict[str, Any]) -> dict[str, object] | None:
         """Return what a strike would do, or None if there is nothing to predict from."""
-        table, frame, state = self._table, self._frame, self._state
-        if table is None or frame is None or not self._compiled:
+        lying = self._lying()
+        if lying is None or not self._compiled:
             return None
-        if state is None or state['moving'] or 'velocity' in strike and not any(strike['velocity']):
+        if 'velocity' in strike and not any(strike['velocity']):
             return None
-        positions = frame_positions(frame, whole=self._turns)
         # Not in the loop: on a table with many balls it takes longer than a frame.
-        return await asyncio.to_thread(predict, table, positions, strike)
+        return await asyncio.to_thread(predict, *lying, strike)
+
+    def _help(self, page: Page, goal: dict[str, Any]) -> None:
+        lying = self._lying()
+        if lying is None:
+            raise ValueError('wait until the balls are at rest')
+        self._run(self._helper.help(page, *lying, goal))
+
+    def _lying(self) -> tuple[Table, np.ndarray] | None:
+        """Return the table, and where its balls rest; None while they move."""
+        table, frame, state = self._table, self._frame, self._state
+        if table is None or frame is None or state is None or state['moving']:
+            return None
+        return table, frame_positions(frame, whole=self._turns)
 
     async def _undo(self) -> None:
         """Put the balls back to where they were before the latest strike."""
         start, frame, table = self._strikes.start, self._frame, self._table
         if start is None or frame is None or table is None:
             raise ValueError('there is no strike to undo')
-        now = frame_positions(frame, whole=self._turns)
-        moved = {
-            label: before.tolist()
-            for label, before, place in zip(table.labels, start, now, strict=True)
-            if not np.array_equal(before, place)
-        }
+        moved = places_to_undo(table, start, frame_positions(frame, whole=self._turns))
         if moved:
             await self._bridge.request(place=moved)
 

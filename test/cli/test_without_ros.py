@@ -12,6 +12,8 @@ COMMANDS = {
     'record_shot': ('cli.record_shot', ['1']),
     'replay': ('cli.replay', ['session.log']),
     'web_view': ('web_view.command', []),
+    'oracle': ('cli.oracle', []),
+    'aim': ('cli.aim', ['--ball', '9', '--to', '0.3', '0.2']),
     'demo': ('cli.demo', []),
     'play': ('cli.play', []),
     'report': ('report.command', []),
@@ -88,6 +90,7 @@ def test_without_ros_one_line_says_what_is_missing(command, tmp_path):
         ('sim_node', 'visualization_msgs'),
         ('sim_node', 'numba'),
         ('shot', 'numpy'),
+        ('oracle', 'sensor_msgs'),
     ],
 )
 def test_any_other_package_is_named_the_same_way(domain, command, missing, tmp_path):

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pool_sim_ros.console import Parser, arguments, number, path, port, positive, speed
+from pool_sim_ros.console import Parser, arguments, count, number, path, port, positive, speed
 
 
 def parse(*words):
@@ -57,6 +57,8 @@ def test_anything_else_is_no_number(capsys, word):
         (speed, '-0', 0.0),
         (speed, '1e-3', 1e-3),
         (speed, '10000', 1e4),
+        (count, '1', 1),
+        (count, '330000', 330000),
         (port, '0', 0),
         (port, '65535', 65535),
     ],
@@ -78,6 +80,10 @@ def test_values_at_the_edge_are_taken(read, text, value):
         (speed, '1e-311', 'is neither 0 nor from 0.001 to 10000'),
         (speed, '10001', 'is neither 0 nor from 0.001 to 10000'),
         (speed, 'inf', 'is not a finite number'),
+        (count, '0', 'is not a whole number above 0'),
+        (count, '-1', 'is not a whole number above 0'),
+        (count, '1.5', 'is not a whole number above 0'),
+        (count, '9' * 19, 'is not a whole number above 0'),
         (port, '65536', 'is not a port, 0 to 65535'),
         (port, '-1', 'is not a port'),
         (port, '8080.0', 'is not a port'),

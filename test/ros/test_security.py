@@ -7,12 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from pool_sim_ros.ros import interface
+from pool_sim_ros.ros import OracleNode, interface, oracle_interface
 from pool_sim_ros.ros.client import ShotClient
 from pool_sim_ros.ros.recorder import Recorder
 
 PROJECT = Path(__file__).resolve().parents[2]
 POLICY = ET.parse(PROJECT / 'config' / 'sros2_policy.xml')
+ORACLE_INPUTS = (oracle_interface.WHAT_IF_REQUEST, oracle_interface.PLAN_REQUEST)
 OWN = {'/parameter_events', '/rosout', '/clock'}
 
 
@@ -38,12 +39,30 @@ def test_the_policy_allows_a_client_the_other_ends():
     topics = [item for item in vars(interface).values() if isinstance(item, interface.Topic)]
     inputs = (interface.CUE_VELOCITY, interface.SHOT_REQUEST, interface.SET_BALL_POSES)
     names = {topic.of('/pool_sim') for topic in inputs}
-    assert allowed('/pool_client', 'topic', 'publish') == names | {'/parameter_events', '/rosout'}
+    asked = {topic.of('/pool_oracle') for topic in ORACLE_INPUTS}
+    assert allowed('/pool_client', 'topic', 'publish') == names | asked | {
+        '/parameter_events',
+        '/rosout',
+    }
     heard = allowed('/pool_client', 'topic', 'subscribe')
     assert {topic.of('/pool_sim') for topic in topics} - names <= heard
+    assert {topic.of('/pool_oracle') for topic in oracle_interface.TOPICS} - asked <= heard
     services = [item for item in vars(interface).values() if isinstance(item, interface.Service)]
     used = {s.of('/pool_sim') for s in services} | {'/pool_sim/set_parameters'}  # the page's speed
     assert allowed('/pool_client', 'service', 'request') == used
+
+
+def test_the_policy_allows_the_oracle_what_it_has_and_no_more(ros):
+    node = ros.add(OracleNode(context=ros.context))
+    name = node.get_name(), node.get_namespace()
+    published = {topic for topic, _ in node.get_publisher_names_and_types_by_node(*name)}
+    read = {topic for topic, _ in node.get_subscriber_names_and_types_by_node(*name)}
+    served = {service for service, _ in node.get_service_names_and_types_by_node(*name)}
+    assert allowed('/pool_oracle', 'topic', 'publish') == published
+    looked = (interface.TABLE, interface.STATE, interface.BALL_POSES, interface.SHOT_RESPONSE)
+    seen = {topic.of('/pool_sim') for topic in looked}
+    assert read | seen <= allowed('/pool_oracle', 'topic', 'subscribe') <= read | seen | OWN
+    assert served == allowed('/pool_oracle', 'service', 'reply')
 
 
 def test_clients_have_nothing_but_what_the_policy_allows(ros, domain):

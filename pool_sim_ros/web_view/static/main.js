@@ -5,6 +5,7 @@ import { Aim } from './aim.js';
 import { AimForm } from './aim_form.js';
 import { Connection } from './connection.js';
 import { Hand } from './hand.js';
+import { Help } from './help.js';
 import { listenToKeys } from './keys.js';
 import { canPlay, canStrike, page, spins } from './page.js';
 import { $, announce, resultWords, say } from './panel.js';
@@ -18,6 +19,8 @@ const POSE = 7; // numbers of a ball that turns: x, y, z and a quaternion
 const { canvas, painter, timeline, units } = page;
 let asked = null; // what a prediction was asked for and has not come, as JSON
 
+// Before the hand: who picks a place takes no ball.
+const help = page.help = new Help({ canvas, send, onChange: () => { page.dirty = true; } });
 // Before the aim: who takes a ball in hand does not aim.
 const hand = page.hand = new Hand({
   canvas,
@@ -89,6 +92,7 @@ const heard = {
     $('english').hidden = $('pocket-reading').hidden = !spins();
     $('ball').replaceChildren(...table.balls.map(({ label }, i) => new Option(label, String(i))));
     layOut();
+    help.offer(table, page.words);
   },
   collisions(rows) {
     const { balls } = page.table;
@@ -120,8 +124,10 @@ const heard = {
     page.dirty = page.unfit = true;
     if (page.words) announce('result', resultWords(result, page.table, page.words));
   },
+  help: (answer) => help.take(answer),
   problem(text) {
     asked = null;
+    help.fail();
     advise(text);
   },
   predicts: () => askForPrediction(), // from now on
@@ -166,6 +172,7 @@ page.connection = new Connection({
     page.connected = open;
     asked = null;
     if (!open) {
+      help.fail();
       page.state = null;
       page.compiling = false;
       timeline.clear();

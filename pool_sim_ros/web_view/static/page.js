@@ -12,7 +12,7 @@ export const page = {
   places: null, turns: null, sunk: null, // of the balls as they are now
   shown: null, // the places in the picture, of now or of a time that is replayed
   words: null, flashes: [], prediction: null, strike: new Strike(), result: null, drawn: 0, dirty: true,
-  aim: null, form: null, hand: null, replay: null, connection: null, // made in main.js
+  aim: null, form: null, hand: null, help: null, replay: null, connection: null, // made in main.js
 };
 window.page = page;
 

@@ -41,16 +41,33 @@ export class Painter {
   }
 
   // `scene`: places [x0, y0, ...], turns, sunk, time, flashes [{stamp, x, y, speed}], aim or null,
-  // lines [{paths, style}] with the style 'strong', 'faint' or 'other', hand {ball, x, y, free} or null
-  draw({ places, turns, sunk, time, flashes, aim, lines, hand }) {
+  // lines [{paths, style}] with the style 'strong', 'faint' or 'other', hand {ball, x, y, free} or null,
+  // target {x, y, within} or null
+  draw({ places, turns, sunk, time, flashes, aim, lines, hand, target }) {
     const c = this.context;
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     c.drawImage(this.ground, 0, 0, this.geometry.width, this.geometry.height);
+    if (target) this.drawTarget(target);
     for (const { paths, style } of lines) this.drawPaths(paths, style);
     this.balls.draw(c, places, turns, sunk);
     for (const flash of flashes) this.drawFlash(flash, time);
     if (hand) this.drawHand(hand);
     if (aim) this.drawCue(aim, places);
+  }
+
+  // The place to which a ball is to come.
+  drawTarget({ x, y, within }) {
+    const c = this.context;
+    const [sx, sy] = this.geometry.toScreen(x, y);
+    c.beginPath();
+    c.arc(sx, sy, within * this.geometry.scale, 0, 7);
+    c.fillStyle = 'rgb(255 255 255 / 0.16)';
+    c.fill();
+    c.setLineDash([5, 4]);
+    c.lineWidth = 1.6;
+    c.strokeStyle = '#fff';
+    c.stroke();
+    c.setLineDash([]);
   }
 
   drawPaths(paths, style) {

@@ -29,6 +29,7 @@ function showFits(places) {
   const fits = ends?.every(Boolean) && layoutIs(places, ends);
   showResult(fits ? result : null, page.table, page.words, page.units);
   $('print').hidden = !(strike.exact && fits);
+  page.help.look(places);
   page.standing = strike.fits(places, Boolean(state?.moving || state?.computing));
   if (strike.shot && page.turns && !strike.shot.turns && layoutIs(places, strike.shot.ends)) {
     strike.shot.turnTo(page.turns);
@@ -102,7 +103,7 @@ function draw() {
   page.dirty = aim.active || Boolean(hand.held);
   const scene = picture();
   page.shown = scene.places;
-  page.painter.draw({ ...scene, aim: aim.active && live ? aim : null, lines: lines(), hand: hand.held });
+  page.painter.draw({ ...scene, aim: aim.active && live ? aim : null, lines: lines(), hand: hand.held, target: live ? page.help.target : null });
   page.drawn += 1;
 }
 

@@ -50,6 +50,7 @@ export function showStatus() {
   if (!usable) return;
   $('shoot').disabled = !canStrike();
   $('place').disabled = $('undo').disabled = !canPlay();
+  page.help.enable();
   for (const button of $('shots').querySelectorAll('button')) button.disabled = !canPlay();
   $('step').disabled = !state.paused;
   say('pause', state.paused ? 'Resume' : 'Pause');
