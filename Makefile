@@ -2,7 +2,7 @@
 
 PYTHON ?= python3
 VENV ?= .venv
-EXTRAS = jazzy,report,web,record,fit,gym,plot,frames,study,test
+EXTRAS = jazzy,report,web,record,fit,gym,plot,frames,study,docs,test
 PY = $(VENV)/bin/python
 
 # The versions that CI has tested, for every Python: without them, next year's newest could break
@@ -49,7 +49,7 @@ OLDEST_PACKAGES = $(shell sed -n "s/^ *install_requires=\[\(.*\)\],/\1/p" setup.
 SETUP_FILES = setup.py setup.cfg pyproject.toml package.xml pool_sim_ros/__init__.py \
 	$(wildcard config/* launch/* resource/*)
 
-.PHONY: help demo play check test cover soak oldest bench lock clean setup
+.PHONY: help demo play check test cover soak oldest bench docs lock clean setup
 
 help:
 	@echo 'make demo    play the report'\''s four shots on a simulated table and compare with its log'
@@ -60,6 +60,7 @@ help:
 	@echo 'make soak    what takes minutes: long runs of the node, nine million shots looked at'
 	@echo 'make oldest  the physics on Python 3.10 with the oldest numpy and numba, where 3.10 is there'
 	@echo 'make bench   run the benchmarks'
+	@echo 'make docs    the pages and the API as a site, in build/site'
 	@echo 'make lock    write constraints/ anew, with the newest versions'
 	@echo 'make setup   only create $(VENV) and install everything there'
 	@echo 'make clean   remove the environments, caches and build folders'
@@ -110,6 +111,10 @@ bench: $(BENCH_INSTALLED) $(POOLTOOL)
 	$(PY) test/benchmark/pooltool_results.py --pooltool $(BENCH_VENV)/bin/python --write docs/pooltool.md
 	$(PY) -m pytest test/benchmark --pooltool $(BENCH_VENV)/bin/python \
 		--benchmark-columns=median,iqr,rounds --figures docs/benchmarks.md
+
+docs: $(INSTALLED)
+	$(PY) -m sphinx --quiet --fail-on-warning --keep-going -d build/doctrees docs build/site
+	@echo 'Open build/site/index.html.'
 
 clean:
 	rm -rf $(VENV) $(BENCH_VENV) $(OLDEST_VENV) $(LOCK_VENV) build install log dist *.egg-info .pytest_cache \

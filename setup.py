@@ -94,6 +94,7 @@ setup(
         # zarr 3 needs Python 3.11, and so do sweeps.
         'study': ['dask[distributed]', 'tqdm', 'xarray', "zarr>=3.0.8; python_version >= '3.11'"],
         'fit': ['rosbags', 'scipy'],
+        'docs': ['furo', 'myst-parser', 'numpydoc', 'sphinx'],
         'bench': ['cma', 'pytest-benchmark', 'tqdm'],
         'test': [
             'catkin_pkg',
@@ -102,9 +103,11 @@ setup(
             'cyclonedds',  # sends what rclpy cannot
             'hypothesis',
             'import-linter>=2.5',
+            'ipykernel',  # runs the notebooks
             'mcap',
             'mpmath',
             'mypy>=1.15',
+            'nbclient',
             'packaging',
             'pip>=22.3',  # its option --python
             'playwright',  # drives the Chromium that the system has

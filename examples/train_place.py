@@ -1,6 +1,6 @@
 """Learn to bring a ball to a place with one shot, by the cross-entropy method: a minute's work.
 
-    pip install 'pool_sim_ros[gym,plot]'
+    pip install '.[gym,plot]'  # in the folder of this repository
     python examples/train_place.py
 
 The table is the report's with two balls on it. A policy has six numbers: how far beside the ball,

@@ -32,6 +32,7 @@ OPTIONAL = {
     ],
     *['mpmath', 'packaging', 'pandas', 'playwright', 'rosbags', 'scipy', 'tqdm', 'xarray', 'yaml'],
     *['numcodecs', 'psutil', 'zarr'],
+    *['ipykernel', 'nbclient', 'nbformat', 'numpydoc', 'sphinx'],
     *[
         'diagnostic_msgs',
         'geometry_msgs',

@@ -3,6 +3,7 @@
 import ast
 import json
 import os
+import random
 import re
 import subprocess
 import sys
@@ -13,21 +14,41 @@ from process_harness import Process, node_process
 from ros_harness import spinning
 from waiting import PATIENCE, wait_until
 
+from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
 
 PROJECT = Path(__file__).parents[1]
 EXAMPLE = PROJECT / 'docs' / 'example_node.py'
 
 
-def test_the_example_node_shoots_and_hears_what_came_of_it(domain):
+def run(*command):
+    """Run a script beside the node."""
+    command = [sys.executable, *command]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, env=os.environ)
+
+
+def test_the_example_nodes_shoot_and_hear_what_came_of_it(domain):
     with node_process(real_time_factor=10.0) as node:
         node.wait_for('ready')
-        example = subprocess.run(
-            [sys.executable, EXAMPLE], capture_output=True, text=True, timeout=60, env=os.environ
-        )
+        rider = run(PROJECT / 'examples' / 'ride_along.py', '--shots', '2', '--seed', '1')
+        example = run(EXAMPLE)
+    assert rider.returncode == 0, rider.stderr
+    ends = re.findall(r'^The cue ball rests at \((.*), (.*)\) m\.$', rider.stdout, re.M)
+    assert [tuple(map(float, end)) for end in ends] == ends_of_strikes(2, seed=1)
     assert example.stdout.startswith('done ['), example.stderr
     x, y = ast.literal_eval(example.stdout.removeprefix('done '))
     assert 0 < x < 2.2352 and 0 < y < 1.1176
+
+
+def ends_of_strikes(count, seed):
+    """Return where the cue ball rests, m, each time that it is struck as the rider does it."""
+    table, strikes, ends = report_table(), random.Random(seed), []
+    positions = table.positions
+    for _ in range(count):
+        velocity = [strikes.uniform(-4.0, -1.0), strikes.uniform(-1.0, 1.0)]
+        positions = simulate(table, velocity, positions=positions).final_positions
+        ends.append(tuple(round(float(place), 3) for place in positions[0]))
+    return ends
 
 
 def example_that_waits(folder, seconds):

@@ -44,7 +44,15 @@ def format_shot_head(shot: int | None, velocity: Sequence[float]) -> str:
 
 
 def format_position(label: str, position: Sequence[float]) -> str:
-    """Return the line of one ball, without a newline; `position` is (x, y), m."""
+    """Return the line of one ball, without a newline.
+
+    Parameters
+    ----------
+    label : str
+        Of the ball.
+    position : sequence of 2 floats
+        x and y, m.
+    """
     x, y = (coordinate / INCH for coordinate in position)
     return f'        Ball {label:>2}: [{x:5.2f}, {y:5.2f}] (in)'
 
@@ -90,7 +98,13 @@ def format_log(
 
 
 def inches(coordinate: float) -> float:
-    """Return a length, given in m, in inches with two decimals, rounded as in the log."""
+    """Return a length in inches with two decimals, rounded as in the log.
+
+    Parameters
+    ----------
+    coordinate : float
+        m.
+    """
     return float(f'{coordinate / INCH:.2f}')
 
 

@@ -8,7 +8,12 @@ from pool_sim_ros.physics import REPORT_TIME_SLICE, Table, report_table
 
 
 def is_report_table(table: Table) -> bool:
-    """Return whether this is the report's table; colours do not count."""
+    """Return whether this is the report's table; colours do not count.
+
+    Parameters
+    ----------
+    table : Table
+    """
     return _without_colors(table) == _without_colors(report_table())
 
 

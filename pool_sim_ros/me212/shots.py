@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.physics import Table
 
 SHOT_NUMBERS = (1, 2, 3, 4)
+"""Of the report's shots."""
 
 _SPEEDS_AND_ANGLES = {1: (4.0, 0.0), 2: (2.5, 15.0), 3: (1.5, 30.0)}
 """m/s, and degrees from -x towards +y."""
@@ -40,7 +41,14 @@ def nearest_ball(table: Table) -> int:
 def attitude_to_nearest(table: Table) -> float:
     """Return the direction from the cue ball to the nearest ball, rad counterclockwise from +x.
 
-    Raises ValueError where the cue ball is alone.
+    Parameters
+    ----------
+    table : Table
+
+    Raises
+    ------
+    ValueError
+        Where the cue ball is alone.
     """
     cue, nearest = table.balls[0].position, table.balls[nearest_ball(table)].position
     return math.atan2(nearest[1] - cue[1], nearest[0] - cue[0])

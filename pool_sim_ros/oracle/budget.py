@@ -47,10 +47,10 @@ class ErrorBudget:
     Attributes
     ----------
     chance : float
-        With the errors as given.
-    levels : dict of ndarray
+        Chance with the errors as given.
+    levels : dict of ndarray of shape (k,)
         Standard deviations that were tried, in the units of `Noise`, rising; by name of the error.
-    chances, low, high : dict of ndarray
+    chances, low, high : dict of ndarray of shape (k,)
         Chance at each level, and its 95 % interval.
     """
 
@@ -63,8 +63,17 @@ class ErrorBudget:
     def tolerance(self, chance: float) -> dict[str, float]:
         """Return how large each error may be for a chance to remain.
 
-        It is the level, interpolated, at which the chance first falls below; infinite where it does
-        so at no level, 0 where it is below without the error already.
+        Parameters
+        ----------
+        chance : float
+            The chance that is to remain, 0 to 1.
+
+        Returns
+        -------
+        dict of float
+            By name of the error, in the units of `Noise`: the level, interpolated, at which the
+            chance first falls below. Infinite where it does so at no level, 0 where it is below
+            without the error already.
         """
         allowed = {}
         for name, levels in self.levels.items():

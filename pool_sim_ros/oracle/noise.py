@@ -71,7 +71,17 @@ class Noise:
 
     @staticmethod
     def preset(name: NoiseName) -> Noise:
-        """Return the noise of a name; raises ValueError for another."""
+        """Return the noise of a name.
+
+        Parameters
+        ----------
+        name : {'fastfiz', 'sjtu'}
+
+        Raises
+        ------
+        ValueError
+            For another name.
+        """
         if not isinstance(name, str) or name not in PRESETS:
             raise ValueError(f'noise: {name!r} is none; there are {", ".join(PRESETS)}')
         return PRESETS[name]
@@ -83,7 +93,18 @@ class Noise:
     __rmul__ = __mul__
 
     def of_stroke(self, table: Table) -> NDArray[np.float64]:
-        """Return the standard deviations of a stroke, (5,), in the order of `STROKE`."""
+        """Return the standard deviations of a stroke.
+
+        Parameters
+        ----------
+        table : Table
+            Discs know neither an elevation nor an offset of the tip.
+
+        Returns
+        -------
+        ndarray of shape (5,)
+            Of speed, azimuth, elevation, side and above: m/s, degrees twice, radii twice.
+        """
         given = np.array([getattr(self, name) for name in STROKE])
         return given if table.motion == 'ball' else np.where(np.arange(5) < 2, given, 0.0)
 

@@ -10,7 +10,15 @@ from numpy.typing import NDArray
 
 
 class Failure(NamedTuple):
-    """What comes instead of the goal, in words, and in which share of all shots."""
+    """What comes instead of the goal.
+
+    Attributes
+    ----------
+    outcome : str
+        In words.
+    share : float
+        In which share of all shots.
+    """
 
     outcome: str
     share: float
@@ -35,7 +43,7 @@ class RankedShot(NamedTuple):
         Mean and standard deviation of where each ball ends while it stays on the cloth, m; NaN
         where it never does.
     caught : ndarray of shape (n,)
-        Share of the shots in which a pocket catches each ball.
+        The share of the shots in which a pocket catches each ball.
     failures : tuple of Failure
         The three most frequent outcomes where the goal is missed, most frequent first.
     shots : int

@@ -67,7 +67,8 @@ def find_shots(
     seed : int, optional
         The same seed gives the same answer, whatever the number of threads.
     seconds : float, optional
-        Ends the search, between two rounds, before all shots are played; the answer then says so.
+        Ends the search after so many s, between two rounds, before all shots are played; the answer
+        then says so.
     threads : int, optional
         At most so many; by default one for each core.
     positions : array_like of shape (n, 2), optional

@@ -5,17 +5,24 @@ from __future__ import annotations
 from typing import Literal, get_args
 
 BallFriction = Literal['report', 'coulomb', 'alciatore']
+"""A law of friction between two balls, by its name."""
 BALL_FRICTION_LAWS: tuple[BallFriction, ...] = get_args(BallFriction)
+"""All of them."""
 
 DiscFriction = Literal['report', 'coulomb']
+"""A law of friction between two discs, by its name."""
 DISC_FRICTION_LAWS: tuple[DiscFriction, ...] = get_args(DiscFriction)
 """Those of discs."""
 
 CushionModel = Literal['han', 'impulse', 'stronge', 'mathavan']
+"""What a cushion does to a ball that spins, by the name of the model."""
 CUSHION_MODELS: tuple[CushionModel, ...] = get_args(CushionModel)
+"""All of them."""
 
 FrictionBound = Literal['impulse', 'restitution']
+"""What bounds the friction of two balls that spin, by its name."""
 FRICTION_BOUNDS: tuple[FrictionBound, ...] = get_args(FrictionBound)
+"""Both of them."""
 
 
 def number_of(name: str, value: object, names: tuple[str, ...]) -> int:

@@ -146,9 +146,22 @@ class Outcomes(NamedTuple):
     def events_frame(self, table: Table | None = None) -> pandas.DataFrame:
         """Return the events of all shots as a frame of pandas, as `Trajectory.events_frame`.
 
-        A column `shot` stands before the others; without a table no column has labels. Raises
-        ValueError where no events were kept, or the table has another number of balls;
-        ModuleNotFoundError where pandas is not installed.
+        Parameters
+        ----------
+        table : Table, optional
+            That was played on. Its labels then name the balls.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A column `shot` stands before the others; without a table no column has labels.
+
+        Raises
+        ------
+        ValueError
+            Where no events were kept, or the table has another number of balls.
+        ModuleNotFoundError
+            Where pandas is not installed; names the extra.
         """
         from pool_sim_ros.physics.frames import outcomes_events_frame
 

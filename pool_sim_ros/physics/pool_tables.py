@@ -27,7 +27,9 @@ from pool_sim_ros.physics.racks import RackKind
 from pool_sim_ros.physics.units import INCH
 
 PoolTableName = Literal['7ft', '8ft', '9ft', 'snooker', 'carom']
+"""The name of a table, as `pool_table` takes it."""
 POOL_TABLES: tuple[PoolTableName, ...] = get_args(PoolTableName)
+"""All of them."""
 
 SPIN_DECAY = 4.0 / 9.0
 """mu_spin over the radius of the ball, as pooltool has it."""
@@ -154,6 +156,10 @@ def pool_table_dimensions(name: PoolTableName) -> PoolTable:
     Parameters
     ----------
     name : {'7ft', '8ft', '9ft', 'snooker', 'carom'}
+
+    Returns
+    -------
+    PoolTable
 
     Raises
     ------

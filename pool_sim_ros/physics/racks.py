@@ -19,6 +19,7 @@ from pool_sim_ros.physics.tolerances import OVERLAP
 from pool_sim_ros.physics.validation import number, whole_number
 
 RackKind = Literal['triangle', 'eight_ball', 'nine_ball', 'ten_ball', 'snooker', 'carom']
+"""The name of a rack, as `rack` takes it."""
 RACKS: tuple[RackKind, ...] = get_args(RackKind)
 
 Point = tuple[float, float]

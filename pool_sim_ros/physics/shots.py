@@ -161,6 +161,8 @@ def simulate_many(
     ------
     ValueError
         As `simulate`; with ``errors='mark'`` not for single shots, except for their velocities.
+    TypeError
+        Where `out` is something else.
 
     Notes
     -----

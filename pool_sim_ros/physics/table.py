@@ -28,7 +28,9 @@ from pool_sim_ros.physics.tolerances import MAX_FRICTION, MIN_DECELERATION
 from pool_sim_ros.physics.validation import check_layout, number
 
 Motion = Literal['disc', 'ball']
+"""How balls move, by its name: discs slide, balls also roll and spin."""
 MOTIONS: tuple[Motion, ...] = get_args(Motion)
+"""Both of them."""
 
 LAWS_OF_MOTION = {'disc': DISC_FRICTION_LAWS, 'ball': ('coulomb', 'alciatore')}
 
@@ -163,20 +165,20 @@ class Table:
         return tuple(v.tobytes() if isinstance(v, np.ndarray) else v for v in values)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the table to a JSON file."""
+        """Write the table to `path`, a JSON file."""
         from pool_sim_ros.physics.table_file import save_table
 
         save_table(self, path)
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Table:
-        """Read a table from a JSON file; raises ValueError, naming what is wrong, and OSError."""
+        """Return the table in `path`; raise ValueError, naming what is wrong in it, and OSError."""
         from pool_sim_ros.physics.table_file import load_table
 
         return load_table(path)
 
     def index(self, label: str) -> int:
-        """Return the index of the ball with a label; raise ValueError where there is none."""
+        """Return the index of the ball with this `label`; raise ValueError where there is none."""
         if label not in self.labels:
             raise ValueError(
                 f'label: {label!r} is not on the table; it has {", ".join(self.labels)}'
@@ -250,7 +252,7 @@ class Table:
         return records
 
     def records_at(self, positions: NDArray[np.float64]) -> NDArray[np.void]:
-        """Return the kernels' records of the balls at rest at (n, 2) positions, m."""
+        """Return the kernels' records of the balls, (n,), at rest at `positions`, (n, 2), m."""
         if self.motion == 'ball':
             boundary = self.for_kernels.boundary
             return spheres_at_rest(positions, self.radii, self.masses, self.is_cue, boundary)

@@ -53,7 +53,16 @@ def table_text(table: Table) -> str:
 
 
 def table_to_fields(table: Table) -> dict[str, Any]:
-    """Return the fields of a table and of its balls as numbers, texts and lists."""
+    """Return the fields of a table and of its balls as numbers, texts and lists.
+
+    Parameters
+    ----------
+    table : Table
+
+    Returns
+    -------
+    dict
+    """
     return {field.name: _plain(getattr(table, field.name)) for field in dataclasses.fields(table)}
 
 
@@ -86,7 +95,21 @@ def _fields(value: Any) -> tuple[dataclasses.Field[Any], ...]:
 
 
 def table_from_fields(content: dict[str, Any]) -> Table:
-    """Return the table of which `table_to_fields` gives these; raise ValueError, naming a field."""
+    """Return the table of which `table_to_fields` gives these.
+
+    Parameters
+    ----------
+    content : dict
+
+    Returns
+    -------
+    Table
+
+    Raises
+    ------
+    ValueError
+        Where a field is missing, unknown or wrong; names it.
+    """
     balls = content.get('balls')
     if not isinstance(balls, list):
         raise ValueError(f'balls: {shown(balls)} must be a list')

@@ -38,7 +38,7 @@ class Trajectory:
         At the end, m and m/s. The velocities are zero unless `until` cut the shot.
     duration : float
         Time from the strike until the last ball rests, or `until`, s.
-    events : structured ndarray
+    events : structured ndarray of shape (k,)
         In order of time: ``t`` (s); ``kind``: 0 ball-ball (a < b), 1 cushion (b: 0 is x = 0,
         1 is x = length, 2 is y = 0, 3 is y = width; with `Table.cushions` the row, segments first,
         then noses), 2 stop (b = -1), 3 pocketed (b: the pocket), 4 a slide becomes a roll (b = -1);
@@ -46,7 +46,7 @@ class Trajectory:
         ``ny``: the unit vector from a to b, into the cushion or to the pocket's centre, otherwise
         zero; ``speed``: closing speed before a contact, that of a ball that is caught, otherwise 0
         (m/s).
-    segments : structured ndarray
+    segments : structured ndarray of shape (k,)
         What each ball does from ``t`` on, in order of time: ``ball``, ``t`` (s), ``x``, ``y`` (m),
         ``vx``, ``vy`` (m/s) and the constant acceleration ``ax``, ``ay`` (m/s^2), until its next
         segment. At rest all four are zero. Where balls spin, also ``wx``, ``wy``, ``wz`` (rad/s)
@@ -81,20 +81,20 @@ class Trajectory:
         return np.full(len(self.final_positions), -1)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the trajectory, with its table, to a file of NumPy's npz format."""
+        """Write the trajectory, with its table, to `path`, a file of NumPy's npz format."""
         from pool_sim_ros.physics.trajectory_file import save_trajectory
 
         save_trajectory(self, path)
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Trajectory:
-        """Read a trajectory; raises ValueError, naming file and field, and OSError."""
+        """Return the trajectory in `path`; raise ValueError, naming file and field, and OSError."""
         from pool_sim_ros.physics.trajectory_file import load_trajectory
 
         return load_trajectory(path)
 
     def plot(self, axes: Axes | None = None) -> Axes:
-        """Draw the paths of the balls, in m, into `axes` of matplotlib or new ones (extra `plot`).
+        """Return `axes` of matplotlib, or new ones, with the balls' paths in m (extra `plot`).
 
         Raises ModuleNotFoundError where matplotlib is not installed.
         """
@@ -107,8 +107,9 @@ class Trajectory:
     ) -> FuncAnimation:
         """Return a film of the shot, which a notebook shows (extra `plot`).
 
-        `speed` is how many times as fast as the balls it runs, `fps` its frames a second. Raises
-        ValueError for more than 2000 frames, ModuleNotFoundError without matplotlib.
+        `speed` is how many times as fast as the balls it runs, `fps` its frames a second; `axes` as
+        in `plot`. Raises ValueError for more than 2000 frames, ModuleNotFoundError without
+        matplotlib.
         """
         with needs('animate()', 'plot'):
             from pool_sim_ros.physics.pictures import Film
@@ -145,11 +146,14 @@ class Trajectory:
         return self._look_up(times, 0)
 
     def velocities(self, times: ArrayLike) -> NDArray[np.float64]:
-        """Return how fast the balls move, in m/s; as `positions`. At an event: just after it."""
+        """Return how fast the balls move at `times`, (k, n, 2) or (n, 2) in m/s; as `positions`.
+
+        At an event: just after it.
+        """
         return self._look_up(times, 1)
 
     def spins(self, times: ArrayLike) -> NDArray[np.float64]:
-        """Return the angular velocities, (k, n, 3) or (n, 3) in rad/s; as `positions`.
+        """Return the angular velocities at `times`, (k, n, 3) or (n, 3) in rad/s; as `positions`.
 
         About x, y and z, which points up. Zero on a table of discs, and of balls in a pocket.
         """

@@ -77,14 +77,14 @@ class GuardedNode(Node):
     def create_subscription(
         self, msg_type: Any, topic: str, callback: Callback, *args: Any, **options: Any
     ) -> Subscription:
-        """Create a subscription; see rclpy."""
+        """Return a subscription; `msg_type`, `topic`, `callback` and the rest as rclpy has them."""
         guarded = self._guarded(topic, callback)
         return super().create_subscription(msg_type, topic, guarded, *args, **options)
 
     def create_service(
         self, srv_type: Any, srv_name: str, callback: Callback, *args: Any, **options: Any
     ) -> Service:
-        """Create a service; see rclpy."""
+        """Return a service; `srv_type`, `srv_name`, `callback` and the rest as rclpy has them."""
         callback = checked(srv_type, callback, self.warn)
         guarded = self._guarded(srv_name, callback, srv_type)
         return super().create_service(srv_type, srv_name, guarded, *args, **options)
@@ -92,12 +92,12 @@ class GuardedNode(Node):
     def create_timer(
         self, timer_period_sec: float, callback: Callback, *args: Any, **options: Any
     ) -> Timer:
-        """Create a timer; see rclpy."""
+        """Return a timer; `timer_period_sec`, in s, and `callback` as rclpy has them."""
         guarded = self._guarded('a timer', callback)
         return super().create_timer(timer_period_sec, guarded, *args, **options)
 
     def warn(self, line: str) -> None:
-        """Write to the log what a peer did wrong, but not too often."""
+        """Write to the log, as `line`, what a peer did wrong, but not too often."""
         self.get_logger().warn(encodable(line), throttle_duration_sec=LOG_PERIOD)
 
     def _guarded(self, what: str, callback: Callback, service: Any = None) -> Callback:

@@ -20,6 +20,9 @@ from pool_sim_ros.ros import oracle_interface
 from pool_sim_ros.ros.oracle_error import OracleError
 from pool_sim_ros.ros.plan_json import LAST, PlanPhase, read_plan_response
 
+LOOK_PERIOD = 0.05
+"""Seconds between two looks for an oracle, while there is none and something to ask."""
+
 RESEND = 1.0
 """Seconds after which a request that is not over is sent again, with the same id: the oracle makes
 one plan of it, and answers with the latest response."""
@@ -55,7 +58,7 @@ class PlanClient:
         self._timer = node.create_timer(RESEND, self._resend)
         self._timer.cancel()
         self._wanted: dict[str, _Wanted] = {}
-        self._looking = node.create_timer(RESEND / 20, self._send_first)
+        self._looking = node.create_timer(LOOK_PERIOD, self._send_first)
         self._looking.cancel()
 
     def is_matched(self) -> bool:
@@ -109,7 +112,7 @@ class PlanClient:
 
     def cancel(self, future: Future) -> None:
         """End the search for a plan; its future then raises OracleError."""
-        for request_id, wanted in self._wanted.items():
+        for request_id, wanted in list(self._wanted.items()):
             if wanted.future is future:
                 wanted.request = json.dumps({'id': request_id, 'cancel': True})
                 self._requests.publish(String(data=wanted.request))
@@ -131,15 +134,13 @@ class PlanClient:
             self._resend()
 
     def _resend(self) -> None:
-        self._wanted = {
-            request_id: wanted
-            for request_id, wanted in self._wanted.items()
-            if not wanted.future.done()
-        }
+        for request_id, wanted in list(self._wanted.items()):  # another thread may ask meanwhile
+            if wanted.future.done():
+                self._wanted.pop(request_id, None)
+            else:
+                self._requests.publish(String(data=wanted.request))
         if not self._wanted:
             self._timer.cancel()
-        for wanted in self._wanted.values():
-            self._requests.publish(String(data=wanted.request))
 
     def _on_response(self, message: Any) -> None:
         try:

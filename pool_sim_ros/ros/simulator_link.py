@@ -70,11 +70,11 @@ class SimulatorLink:
         return self.full_name(topic).removesuffix(f'/{topic.name}')
 
     def full_name(self, topic: interface.Topic) -> str:
-        """Return the name under which the simulator has a topic."""
+        """Return the name under which the simulator has `topic`."""
         return self._node.resolve_topic_name(topic.of(self._name))
 
     def publisher(self, topic: interface.Topic) -> Publisher:
-        """Return a publisher to a topic of the simulator."""
+        """Return a publisher to `topic` of the simulator."""
         return self._node.create_publisher(topic.type, topic.of(self._name), topic.qos)
 
     def subscribe(
@@ -99,6 +99,10 @@ class SimulatorLink:
             Whether a latched topic also delivers what was published before.
         raw : bool, optional
             Whether the messages come as serialised bytes.
+
+        Returns
+        -------
+        Subscription
         """
         qos = QoSProfile(
             depth=topic.qos.depth if depth is None else depth,
@@ -127,6 +131,10 @@ class SimulatorLink:
             Called with that.
         depth : int, optional
             As in `subscribe`.
+
+        Returns
+        -------
+        Subscription
         """
 
         def on_text(message: Any) -> None:
@@ -140,11 +148,11 @@ class SimulatorLink:
         return self.subscribe(topic, on_text, depth=depth)
 
     def unsubscribe(self, subscription: Subscription) -> None:
-        """End a subscription."""
+        """End `subscription`."""
         self._node.destroy_subscription(subscription)
 
     def client(self, service: interface.Service) -> Client:
-        """Return a client of a service of the simulator."""
+        """Return a client of `service` of the simulator."""
         return self._node.create_client(service.type, service.of(self._name))
 
     def count_simulators(self) -> int:
@@ -152,11 +160,11 @@ class SimulatorLink:
         return count_nodes(self._node, self.simulator)
 
     def warn(self, line: str) -> None:
-        """Write a warning to the log of the node."""
+        """Write `line` to the log of the node, as a warning."""
         self._node.get_logger().warn(line)
 
     def left_out(self, reason: object) -> None:
-        """Write to the log, now and then, that something from the simulator made no sense."""
+        """Write to the log, now and then, that something made no sense, with the `reason`."""
         words = ' '.join(str(reason)[:COMPLAINT_LENGTH].split())
         words = words.encode(
             errors='backslashreplace'

@@ -141,14 +141,14 @@ class WhatIfClient:
         """Ask what waits, now that the oracle has answered."""
         self._heard = True
         self._knocks.clear()
-        for asked in self._asked.values():
+        for asked in list(self._asked.values()):
             if asked.sent is None:
                 self._send(asked)
 
     def _send_waiting(self) -> None:
-        self._asked = {
-            stamp: asked for stamp, asked in self._asked.items() if not asked.future.cancelled()
-        }
+        for stamp, asked in list(self._asked.items()):  # another thread may ask meanwhile
+            if asked.future.cancelled():
+                self._asked.pop(stamp, None)
         if not self._asked:
             self._timer.cancel()
         elif not self._is_matched():
@@ -157,7 +157,7 @@ class WhatIfClient:
             self._knock()
         else:
             late = time.monotonic() - RESEND
-            for asked in self._asked.values():
+            for asked in list(self._asked.values()):
                 if asked.sent is None or max(asked.sent, self._last_answer) < late:
                     self._send(asked)
 

@@ -138,6 +138,11 @@ class PlaceVectorEnv(TaskVectorEnv):
         'NextStep', 'SameStep' or 'Disabled'.
     table, **options
         As of `PlaceEnv`.
+
+    Raises
+    ------
+    ValueError
+        Where one of these is out of range; names it.
     """
 
     def __init__(
@@ -153,7 +158,20 @@ class PlaceVectorEnv(TaskVectorEnv):
 
 
 class PotVectorEnv(TaskVectorEnv):
-    """Many `PotEnv` at once; as `PlaceVectorEnv`."""
+    """Many `PotEnv` at once; as `PlaceVectorEnv`.
+
+    Parameters
+    ----------
+    num_envs, max_episode_steps, autoreset_mode
+        As of `PlaceVectorEnv`.
+    table, **options
+        As of `PotEnv`.
+
+    Raises
+    ------
+    ValueError
+        Where one of these is out of range; names it.
+    """
 
     def __init__(
         self,

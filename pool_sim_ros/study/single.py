@@ -31,7 +31,22 @@ class TaskEnv(gymnasium.Env[NDArray[np.float64], NDArray[np.float64]]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float64], dict[str, Any]]:
-        """Begin an episode; with a seed, the first of that seed."""
+        """Begin an episode; with a seed, the first of that seed.
+
+        Parameters
+        ----------
+        seed : int, optional
+            Without one, the next episode of the seed before.
+        options : dict, optional
+            Not used.
+
+        Returns
+        -------
+        observation : ndarray of shape (k,)
+            As the class says, m.
+        info : dict
+            Empty.
+        """
         super().reset(seed=seed)
         if seed is not None or not self._seeded:
             self._seats.seed(SEAT, [self.np_random_seed])
@@ -43,7 +58,31 @@ class TaskEnv(gymnasium.Env[NDArray[np.float64], NDArray[np.float64]]):
     def step(
         self, action: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], float, bool, bool, dict[str, Any]]:
-        """Play one shot; raises ValueError for an action that is none, ResetNeeded at the end."""
+        """Play one shot.
+
+        Parameters
+        ----------
+        action : array_like of shape (2,), where balls spin (4,)
+            Each -1 to 1; the class says what they are.
+
+        Returns
+        -------
+        observation : ndarray of shape (k,)
+            As the class says, m.
+        reward : float
+            As the class says.
+        terminated, truncated : bool
+            Whether the episode has ended, or was cut.
+        info : dict
+            As the class says.
+
+        Raises
+        ------
+        ValueError
+            For an action of another shape, or that is not finite; then nothing is played.
+        ResetNeeded
+            Before the first reset, and where the episode is over.
+        """
         if not self._goes_on:
             raise ResetNeeded('the episode is at its end, or none has begun: call reset()')
         actions = checked_actions(action, self.action_space.shape)[np.newaxis]

@@ -66,6 +66,13 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         options : dict, optional
             ``reset_mask``: ndarray of shape (num_envs,), bool.
 
+        Returns
+        -------
+        observations : ndarray of shape (num_envs, k)
+            m.
+        infos : dict
+            Empty.
+
         Raises
         ------
         ValueError
@@ -86,7 +93,23 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         return self._seats.observations(), {}
 
     def step(self, actions: Floats) -> tuple[Floats, Floats, Flags, Flags, dict[str, Any]]:
-        """Play one shot on each table; raises ValueError for actions that are none.
+        """Play one shot on each table.
+
+        Parameters
+        ----------
+        actions : array_like of shape (num_envs, 2), where balls spin (num_envs, 4)
+            Each -1 to 1.
+
+        Returns
+        -------
+        observations : ndarray of shape (num_envs, k)
+            m.
+        rewards : ndarray of shape (num_envs,)
+            As of the single environment.
+        terminated, truncated : ndarray of shape (num_envs,)
+            Whether each episode has ended, or was cut.
+        infos : dict of ndarray
+            As gymnasium's `SyncVectorEnv` has them.
 
         Raises
         ------

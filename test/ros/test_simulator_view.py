@@ -27,7 +27,7 @@ class Stub:
     def __init__(self, ros):
         self.node = ros.node('stub')
         self._publishers = {
-            topic: self.node.create_publisher(topic.type, topic.of('/stub'), topic.qos)
+            topic.name: self.node.create_publisher(topic.type, topic.of('/stub'), topic.qos)
             for topic in self.TOPICS
         }
         self.view = SimulatorView(ros.context, '/stub', 'test_view')
@@ -38,7 +38,7 @@ class Stub:
     def send(self, topic, message):
         """Send, and wait until that has arrived."""
         text = isinstance(message, str)
-        publisher = self._publishers[topic]
+        publisher = self._publishers[topic.name]
         publisher.publish(messages.to_string(message) if text else message)
         publisher.wait_for_all_acked()
 

@@ -8,20 +8,24 @@ from pathlib import Path
 
 import pytest
 
-from pool_sim_ros import physics
+from pool_sim_ros import me212, oracle, physics, ros, study
 
-pytest.importorskip('mypy')
+for needed in ('mypy', 'gymnasium', 'matplotlib', 'rclpy', 'rosbags'):
+    pytest.importorskip(needed)
 
-PROJECT = Path(__file__).parents[2]
+PROJECT = Path(__file__).parents[1]
+ROOMS = (physics, oracle, study, me212, ros)
+IMPORTS = '\n'.join(f'from {room.__name__} import {", ".join(room.__all__)}' for room in ROOMS)
 HEAD = f"""\
 import dataclasses
+from pathlib import Path
 
+import gymnasium
 import numpy as np
 from numpy.typing import NDArray
+from rclpy.context import Context
 
-from pool_sim_ros.physics import (
-    {', '.join(physics.__all__)},
-)
+{IMPORTS}
 
 table: Table = report_table()
 """
@@ -88,6 +92,56 @@ shot.events_frame().groupby('kind')
 many.events_frame(pool).groupby('shot')
 many.to_xarray(pool).sel(ball='9')
 compile_kernels(table)
+goal: Goal = Goal(ball='9', to=(0.3, 0.2), within=0.1) & Goal(keep='C')
+noise: Noise = 0.5 * Noise(speed=0.1, azimuth=0.2, camera=1e-3)
+noise = Noise.preset('fastfiz')
+plan: Plan = find_shots(table, goal, noise, shots=2000, seed=1, speeds=(0.5, 3.0))
+plan = find_shots(table, {'first_hit': '1'}, 'sjtu', positions=table.positions, seconds=1.0)
+best: RankedShot = plan[0]
+chance: float = best.chance + best.low
+misses: tuple[Failure, ...] = best.failures
+for ranked in plan:
+    ends = ranked.mean
+many = what_if(table, [best.velocity], events=True, threads=1)
+budget: ErrorBudget = error_budget(table, goal, best, noise=noise, shots=100)
+allowed: dict[str, float] = budget.tolerance(0.8)
+budget.plot().savefig('budget.png')
+tracks: list[Track] = read_tracks(table, ['shot1.csv', Path('shot2.csv')])
+found: Fit = fit(table, [*tracks, Track(np.arange(3.0), np.zeros((3, 11, 2)))], noise=5e-4)
+table = found.table
+register_environments()
+env: gymnasium.Env[NDArray[np.float64], NDArray[np.float64]] = PlaceEnv(table, ball='9')
+seen, info = env.reset(seed=1)
+seen, reward, ended, cut, info = env.step(np.zeros(2))
+pots: PotVectorEnv = PotVectorEnv(64, table='7ft', speed=2.0)
+seen, rewards, over, truncated, infos = pots.step(np.zeros((64, 4)))
+single: PotEnv | PlaceVectorEnv = PotEnv('9ft', starts=100)
+for number in SHOT_NUMBERS:
+    strike: tuple[float, float] = cue_velocity(number, table)
+    text: str = format_shot(number, strike, [(table.labels[0], table.balls[0].position)])
+printed: dict[str, tuple[float, float]] = published_final_positions()[1]
+differences: list[str] = deviations(table, 'event', REPORT_TIME_SLICE)
+
+
+def play(context: Context) -> str:
+    client = ShotClient(context, NODE_NAME)
+    recorder = Recorder(context, client.simulator)
+    try:
+        client.wait_for_simulator(5.0)
+        client.call(interface.SET_PAUSED, data=False, timeout=5.0)
+        client.place({'9': (0.5, 0.4)}, timeout=5.0)
+        outcome = client.play(velocity=(-2.0, 0.3), timeout=5.0)
+        client.play(cue={'speed': 2.0, 'azimuth': 180.0}, timeout=5.0)
+        write_bag(Path('shot.mcap'), recorder.messages())
+        return str(outcome['phase'])
+    except SimulatorError as error:
+        return str(error)
+    finally:
+        client.close()
+
+
+node: SimNode = SimNode(namespace='left')
+failed: bool = node.failed
 laws: list[str] = [*BALL_FRICTION_LAWS, *INTEGRATORS]
 """
 WRONG = """\
@@ -111,6 +165,16 @@ aim_at(table, 0, 1)
 simulate(table, (1.0, 0.0)).animate(speed='slow')
 simulate_many(table, [(1.0, 0.0)]).to_xarray('report')
 table.index(9)
+find_shots(table, Goal(first_hit='1'), 'pro')
+Goal(ball=9)
+Noise(wind=1.0)
+what_if([(1.0, 0.0)])
+error_budget(table, Goal(first_hit='1'))
+find_shots(table, Goal(first_hit='1'), 'sjtu')[0].velocities
+PlaceEnv(7)
+cue_velocity(table, 1)
+SimNode(name='left')
+ShotClient()
 collide_cushion((1.0, 0.0, 0.0), 3, (1.0, 0.0), R=0.03, h=0.04, e=0.9, f=0.2, model='x')
 """
 
