@@ -23,7 +23,9 @@ class Page:
         """Wait until an expression is true."""
         end = time.monotonic() + PATIENCE
         while not self.get(f'Boolean({script})'):
-            assert time.monotonic() < end, f'waited {PATIENCE:g} s for {script}'
+            if time.monotonic() > end:
+                shown = self.page.inner_text('body')
+                raise AssertionError(f'waited {PATIENCE:g} s for {script}; the page:\n{shown}')
             self.page.wait_for_timeout(30)  # each look costs the browser
 
     def text(self, element):
@@ -39,7 +41,8 @@ class Page:
     def start_over(self):
         """Put the balls back, and wait until the page shows it."""
         self.wait_for_rest()
-        self.page.click('#reset')
+        # Not with the mouse: while the page still fills, the button moves away under it.
+        self.get("document.getElementById('reset').click()")
         self.get('scrollTo(0, 0)')
         self.wait(
             'page.table.balls.every(({ position: [x, y] }, i) =>'
@@ -60,6 +63,7 @@ class Page:
         """Wait until the latest shot is over, and known."""
         self.wait('page.result && page.strike.shot && page.result.id === page.strike.shot.id')
         self.wait('page.standing && !document.getElementById("result").hidden')
+        self.wait_for_rest()  # the state comes on a topic of its own
 
     def scrub(self, frame):
         """Move the bar to a frame."""

@@ -156,10 +156,16 @@ def energy_of(table, velocities, spins):
     return ((velocities**2).sum(-1) + inertia * (spins**2).sum(-1)) @ table.masses / 2
 
 
+def least_parting(contacts):
+    """Return how fast weak contacts part at most, m/s, after so many contacts of a shot."""
+    held = np.clip(np.asarray(contacts) - STEADY_HELD, 0, MOST_HELD - STEADY_HELD)
+    return LEAST_PARTING * HELD_GROWTH**held
+
+
 def energy_rises(table, velocity, spin, shot, instants):
     """Return at which instants there is more energy than before by more than docs/physics.md says.
 
-    A weak contact parts at u = 1 mm/s at most, faster after 2000 of them. One adds at most
+    A weak contact parts at u = 1 mm/s at most, faster where there were many: `least_parting`. One adds at most
     m u^2 / 2, with the reduced mass m of two balls; k of one instant add at most M (k u)^2 / 2,
     where M is the mass of the balls in them.
     """
@@ -172,8 +178,7 @@ def energy_rises(table, velocity, spin, shot, instants):
     contacts = shot.events[shot.events['kind'] < 2]
     first = np.searchsorted(contacts['t'], instants, side='left')
     last = np.searchsorted(contacts['t'], instants, side='right')
-    growth = HELD_GROWTH ** np.clip(last - STEADY_HELD, 0, MOST_HELD - STEADY_HELD)
-    parting = LEAST_PARTING * growth
+    parting = least_parting(last)
     one, other = table.masses[contacts['a']], table.masses[contacts['b'] % n]
     balls = contacts['kind'] == 0
     mass = np.append(0.0, np.cumsum(np.where(balls, one + other, one)))
