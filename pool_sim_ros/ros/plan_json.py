@@ -144,8 +144,10 @@ def read_plan_response(text: str) -> dict[str, Any]:
     """
     fields = read_json_object(text)
     known = [phase.value for phase in PlanPhase]
-    if not isinstance(fields.get('id'), (str, type(None))) or fields.get('phase') not in known:
-        raise ValueError('this is no response to a plan')
+    right = isinstance(fields.get('id', 0), (str, type(None))) and fields.get('phase') in known
+    done = fields.get('phase') == PlanPhase.DONE.value
+    if not right or (done and not isinstance(fields.get('shots'), list)):
+        raise ValueError('this is no response to a request for a plan')
     return fields
 
 
