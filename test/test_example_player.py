@@ -39,5 +39,14 @@ def test_each_problem_is_solved_and_played_without_one_missed_answer(room, balls
     ]
 
 
+def test_the_example_of_a_what_if_runs(room):
+    page = (PROJECT / 'docs' / 'oracle.md').read_text()
+    (block,) = re.findall(r'^```python\n(import rclpy\n.*?)^```', page, re.M | re.S)
+    asked = subprocess.run(
+        [sys.executable, '-c', block], capture_output=True, text=True, timeout=300, env=os.environ
+    )
+    assert asked.stdout.startswith('(2, 11, 2) ['), asked.stderr
+
+
 def test_the_page_shows_the_example_as_it_is():
     assert EXAMPLE.read_text().strip() in (PROJECT / 'docs' / 'oracle.md').read_text()

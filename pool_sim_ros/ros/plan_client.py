@@ -8,17 +8,19 @@ from __future__ import annotations
 import json
 import uuid
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 from rclpy.task import Future
 from std_msgs.msg import String
 
-from pool_sim_ros.oracle import Goal, Noise
 from pool_sim_ros.ros import oracle_interface
 from pool_sim_ros.ros.oracle_error import OracleError
 from pool_sim_ros.ros.plan_json import LAST, PlanPhase, read_plan_response
+
+if TYPE_CHECKING:  # they load the physics
+    from pool_sim_ros.oracle import Goal, Noise
 
 LOOK_PERIOD = 0.05
 """Seconds between two looks for an oracle, while there is none and something to ask."""
@@ -97,8 +99,8 @@ class PlanClient:
         request_id = uuid.uuid4().hex
         fields = {
             'id': request_id,
-            'goal': goal.fields() if isinstance(goal, Goal) else goal,
-            'noise': vars(noise) if isinstance(noise, Noise) else noise,
+            'goal': goal if isinstance(goal, Mapping) else goal.fields(),
+            'noise': noise if isinstance(noise, (Mapping, str)) else asdict(noise),
             **search,
         }
         wanted = _Wanted(json.dumps(fields), Future(), on_progress)

@@ -208,7 +208,10 @@ class PlanDesk:
             **job.request.search,
         )
         self._tell(job, PlanPhase.DONE, **plan_fields(plan, lying.table.labels, lying.positions))
-        self._on_plan(plan, lying)
+        try:
+            self._on_plan(plan, lying)
+        except Exception:  # the request has its last response
+            traceback.print_exc()
 
     def _tell_cancelled(self, job: _Job) -> None:
         reason = 'somebody cancelled it'

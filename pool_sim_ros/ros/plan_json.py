@@ -6,14 +6,16 @@ import json
 import uuid
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.oracle import Plan, RankedShot
 from pool_sim_ros.ros.oracle_error import OracleCode, OracleError
 from pool_sim_ros.simulator import read_json_object
+
+if TYPE_CHECKING:  # they load the physics
+    from pool_sim_ros.oracle import Plan, RankedShot
 
 LONGEST_REQUEST = 16_384
 """Characters of a request: a goal of 100 parts has some 8000."""
@@ -144,8 +146,10 @@ def read_plan_response(text: str) -> dict[str, Any]:
     """
     fields = read_json_object(text)
     known = [phase.value for phase in PlanPhase]
-    if not isinstance(fields.get('id'), (str, type(None))) or fields.get('phase') not in known:
-        raise ValueError('this is no response to a plan')
+    right = isinstance(fields.get('id', 0), (str, type(None))) and fields.get('phase') in known
+    done = fields.get('phase') == PlanPhase.DONE.value
+    if not right or (done and not isinstance(fields.get('shots'), list)):
+        raise ValueError('this is no response to a request for a plan')
     return fields
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pool_sim_ros.physics import Outcomes, Table
 from pool_sim_ros.ros.oracle_error import OracleCode, OracleError
 from pool_sim_ros.ros.point_cloud import (
     NAMES,
@@ -19,6 +18,9 @@ from pool_sim_ros.ros.point_cloud import (
     read_cloud,
     rows_of,
 )
+
+if TYPE_CHECKING:  # they load numba
+    from pool_sim_ros.physics import Outcomes, Table
 
 MOST_CANDIDATES = 50_000
 """Of one request: what they answer is 12 MB where there are 11 balls."""

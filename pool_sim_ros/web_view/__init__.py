@@ -1,7 +1,7 @@
 """The table in a browser: a client of the node's topics that serves a page.
 
-It imports `ros`, `simulator`, `me212`, `physics` and `console`, and no room imports it: it is a
-process of its own, and starts with `python -m pool_sim_ros.web_view`.
+It imports `ros`, `oracle`, `simulator`, `me212`, `physics` and `console`, and no room imports it:
+it is a process of its own, and starts with `python -m pool_sim_ros.web_view`.
 
 command     how it starts and ends
 bridge      ROS: topics and services of the simulator, in a thread of its own

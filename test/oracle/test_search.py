@@ -101,6 +101,21 @@ def test_seconds_cut_the_search_and_the_answer_says_so():
     assert plan and all(0.0 <= shot.low <= shot.chance for shot in plan)
 
 
+def test_a_caller_hears_how_many_shots_are_played_and_may_end_the_search():
+    heard = []
+    again = find_shots(TABLE, GOAL, NOISE, 3000, on_round=heard.append)
+    assert heard[0] == 0 and heard == sorted(heard) and 0 < heard[-1] <= again.played
+    assert same(again, find_shots(TABLE, GOAL, NOISE, 3000))
+
+    def stop(played):
+        raise KeyError(played)
+
+    with pytest.raises(KeyError, match='0'):
+        find_shots(TABLE, GOAL, NOISE, on_round=stop)
+    with pytest.raises(ValueError, match='shots'):  # all is checked before anybody is called
+        find_shots(TABLE, GOAL, NOISE, 5, on_round=stop)
+
+
 def test_a_camera_lowers_the_chance_and_the_report_knows(plan):
     noise = Noise(speed=0.05, azimuth=0.5, camera=3e-3)
     seen = find_shots(TABLE, GOAL, noise, 60_000)

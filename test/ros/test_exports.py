@@ -15,6 +15,7 @@ def test_every_name_is_there(name):
 
 def test_what_users_need_is_public():
     wanted = {'SimNode', 'ShotClient', 'SimulatorError', 'Recorder', 'interface'}
+    wanted |= {'OracleNode', 'WhatIfClient', 'PlanClient', 'OracleError', 'oracle_interface'}
     assert wanted <= set(room.__all__)
 
 
@@ -26,7 +27,7 @@ def test_a_name_that_is_not_there_is_an_attribute_error():
 def test_a_client_alone_loads_neither_the_physics_nor_what_records():
     code = (
         'import sys\n'
-        'from pool_sim_ros.ros import ShotClient, interface\n'
+        'from pool_sim_ros.ros import PlanClient, ShotClient, WhatIfClient, interface\n'
         'sys.exit(" ".join({"numba", "rosbags"} & set(sys.modules)) or 0)'
     )
     assert subprocess.run([sys.executable, '-c', code], timeout=60, check=False).returncode == 0

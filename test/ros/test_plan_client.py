@@ -29,7 +29,8 @@ class Stub:
         for nonsense in ('', '5', '{"phase": "done"}', '{"id": "x", "phase": "done"}'):
             self.tell(nonsense)
         for phase in self.answers:
-            self.tell({'id': request['id'], 'phase': phase, 'code': 'C', 'reason': 'why'})
+            response = {'id': request['id'], 'phase': phase, 'code': 'C', 'reason': 'why'}
+            self.tell(response | ({'shots': []} if phase == 'done' else {}))
 
     def tell(self, what):
         text = what if isinstance(what, str) else json.dumps(what)

@@ -229,6 +229,15 @@ def test_a_search_that_fails_ends_its_plan_and_no_other(client, monkeypatch, cap
     assert 'RuntimeError' in capsys.readouterr().err
 
 
+def test_a_plan_that_cannot_be_drawn_is_done_all_the_same(client, capsys):
+    client.plans = None  # so that nothing can be added to it
+    client.ask('a')
+    client.wait_for('a', 'done')
+    client.ask('b')
+    client.wait_for('b', 'done')
+    assert client.phases('a')[-1] == 'done' and 'AttributeError' in capsys.readouterr().err
+
+
 def test_none_found_is_an_answer(client):
     client.ask('a', goal={'all': [{'first_hit': '1'}, {'first_hit': '2'}]}, shots=1000)
     done = client.wait_for('a', 'done')

@@ -118,7 +118,14 @@ def test_a_plan_is_told_with_the_labels_of_the_balls():
     }  # fmt: skip
 
 
-@pytest.mark.parametrize('text', ['', '5', '{}', '{"id": 5, "phase": "done"}', '{"phase": "x"}'])
+@pytest.mark.parametrize(
+    'text',
+    [
+        '', '5', '{}', '{"id": 5, "phase": "progress"}', '{"id": "a", "phase": "x"}',
+        '{"phase": "progress"}', '{"id": "a", "phase": []}', '{"id": "a", "phase": "done"}',
+        '{"id": "a", "phase": "done", "shots": {}}',
+    ],
+)  # fmt: skip
 def test_foreign_texts_are_no_responses(text):
     with pytest.raises(ValueError):
         read_plan_response(text)

@@ -49,7 +49,7 @@ def test_the_best_three_are_listed_shown_and_one_is_played(page):
     np.testing.assert_array_equal(page.get('page.prediction.velocity'), velocity)
     page.page.locator('#helped li button', has_text='Play').nth(1).click()
     page.wait_for_result()
-    ends = list(page.get('page.result.final_positions').values())
+    ends = page.get('page.table.balls.map(({ label }) => page.result.final_positions[label])')
     assert np.array_equal(ends, simulate(report_table(), velocity).final_positions)
     page.wait('!page.help.answer')  # the balls lie elsewhere
     assert lines.count() == 0 and page.get('page.help.target') is None

@@ -367,6 +367,33 @@ def test_who_aims_is_told_the_paths():
     assert nothing is None and asked == []
 
 
+def test_who_asks_for_help_is_told_the_shots_and_meanwhile_does_other_things(monkeypatch):
+    monkeypatch.setattr('pool_sim_ros.web_view.helping.SHOTS', 2000)
+    goal = {'ball': '9', 'to': [0.3, 0.2], 'within': 0.3}
+
+    async def use(site):
+        await with_everything(site)
+        await site.obey(do='help', goal=goal)
+        await site.obey(do='pause', paused=True)
+        heard = {}
+        while 'help' not in heard:
+            heard |= await site.heard()
+        return heard, site.bridge.asked
+
+    heard, asked = on_site(use)
+    assert heard['help'][0]['goal'] == goal and len(heard['help'][0]['shots']) > 0
+    assert heard['help'][0]['positions'] == TABLE.positions.tolist() and len(asked) == 1
+
+
+def test_while_balls_move_there_is_no_help():
+    async def use(site):
+        await with_everything(site, moving=True)
+        await site.obey(do='help', goal={'ball': '9'})
+        return (await site.heard())['problem']
+
+    assert on_site(use) == ['wait until the balls are at rest']
+
+
 def test_while_balls_move_there_is_nothing_to_predict_from():
     async def use(site):
         await with_everything(site, moving=True)
