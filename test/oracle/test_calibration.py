@@ -98,6 +98,20 @@ def test_a_track_of_another_shot_is_left_out():
     assert 'tracks left out: ' in str(result)
 
 
+@pytest.mark.soak
+def test_twenty_shots_tell_each_coefficient_within_2_per_cent_and_errors_are_honest():
+    """Chi-square of what was found over its errors, from ten sets of twenty shots."""
+    away = []
+    for seed in range(10):
+        result = fit(GUESS, tracks_of(20, seed), noise=NOISE)
+        assert set(result.unknown) <= {'e_ball_ball'}  # few shots make two other balls meet
+        for name, value in result.values.items():
+            assert abs(value / TRUE[name] - 1.0) < 0.02, (seed, name)
+            away.append((value - TRUE[name]) / result.errors[name])
+    chi_square = float(np.square(away).sum())
+    assert abs(chi_square - len(away)) < 4.0 * np.sqrt(2.0 * len(away))
+
+
 def test_bad_input():
     with pytest.raises(ValueError, match='tracks: there are none'):
         fit(GUESS, [])
