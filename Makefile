@@ -109,6 +109,7 @@ bench: $(BENCH_INSTALLED) $(POOLTOOL)
 	$(call VERSIONS,$(PY))
 	$(PY) test/benchmark/pooltool_limits.py --pooltool $(BENCH_VENV)/bin/python --write docs/pooltool.md
 	$(PY) test/benchmark/pooltool_results.py --pooltool $(BENCH_VENV)/bin/python --write docs/pooltool.md
+	$(PY) test/benchmark/search_results.py --write docs/oracle.md
 	$(PY) -m pytest test/benchmark --pooltool $(BENCH_VENV)/bin/python \
 		--benchmark-columns=median,iqr,rounds --figures docs/benchmarks.md
 

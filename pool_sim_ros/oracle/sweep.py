@@ -187,10 +187,8 @@ class Map:
         for blocks, misses in self.near:
             some = misses <= farthest
             np.add.at(succeeded, tuple(blocks[some].T), np.maximum(misses[some], 1.0) ** -2)
-        beside = [
-            sum(shifts(sum(shifts(values, 0, 1)), 1, 1)) for values in (succeeded, self.played)
-        ]
-        self.weights = np.asarray(beside[0] / np.maximum(beside[1], 1e-300)) ** power
+        played = beside(self.played)
+        self.weights = (beside(succeeded) / np.maximum(played, 1e-300)) ** power
 
     @property
     def total(self) -> float:
@@ -247,6 +245,13 @@ def along(
     for k in range(1, reach + 1):
         result += weights[k] * (parts[reach - k] + parts[reach + k])
     return np.asarray(result)
+
+
+def beside(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the sum of each value and of its eight neighbours."""
+    for axis in (0, 1):
+        values = reduce(np.add, shifts(values, axis, 1))
+    return values
 
 
 def shifts(values: NDArray[np.float64], axis: int, reach: int) -> Iterator[NDArray[np.float64]]:

@@ -8,7 +8,7 @@ from tables import table_of
 
 from pool_sim_ros.oracle import Track
 from pool_sim_ros.oracle.calibration import Fit, fit
-from pool_sim_ros.physics import simulate
+from pool_sim_ros.physics import cue_strike, pool_table, simulate
 
 pytest.importorskip('scipy')
 
@@ -96,6 +96,90 @@ def test_a_track_of_another_shot_is_left_out():
     assert 2 in result.left_out
     assert abs(result.values['mu_ball_surface'] - 0.13) < 5e-3
     assert 'tracks left out: ' in str(result)
+
+
+@pytest.mark.soak
+def test_twenty_shots_tell_each_coefficient_within_2_per_cent_and_errors_are_honest():
+    """Chi-square of what was found over its errors, from ten sets of twenty shots."""
+    away = []
+    for seed in range(10):
+        result = fit(GUESS, tracks_of(20, seed), noise=NOISE)
+        assert set(result.unknown) <= {'e_ball_ball'}  # few shots make two other balls meet
+        for name, value in result.values.items():
+            assert abs(value / TRUE[name] - 1.0) < 0.02, (seed, name)
+            away.append((value - TRUE[name]) / result.errors[name])
+    chi_square = float(np.square(away).sum())
+    assert abs(chi_square - len(away)) < 4.0 * np.sqrt(2.0 * len(away))
+
+
+def rolling_tables():
+    """Return a seven-foot table with three balls as somebody guesses it, and as it is."""
+    table = pool_table('7ft')
+    guess = dataclasses.replace(
+        table, balls=table.balls[:3], ball_friction='coulomb', mu_ball_ball=0.06
+    )
+    true = {
+        'mu_slide': 1.12 * guess.mu_slide,
+        'mu_roll': 0.88 * guess.mu_roll,
+        'mu_spin': 1.12 * guess.mu_spin,
+        'e_cue_ball': 0.93,
+        'e_ball_ball': 0.96,
+        'e_ball_cushion': 0.88 * guess.e_ball_cushion,
+        'mu_ball_ball': 1.12 * guess.mu_ball_ball,
+        'mu_ball_cushion': 0.88 * guess.mu_ball_cushion,
+    }
+    return guess, dataclasses.replace(guess, **true), true
+
+
+def rolling_tracks(guess, table, shots, seed):
+    """Return tracks of strokes with some spin, executed a little differently than they were meant.
+
+    The sensitivity of each, of any final position to any first one, is below 100.
+    """
+    rng, tracks = np.random.default_rng(seed), []
+    while len(tracks) < shots:
+        places = rng.uniform((0.1, 0.1), (table.length - 0.1, table.width - 0.1), (3, 2))
+        gaps = np.hypot(*(places - np.roll(places, 1, axis=0)).T)
+        if gaps.min() < 0.12:
+            continue
+        way = places[1] - places[0]
+        aim = {
+            'azimuth': np.degrees(np.arctan2(way[1], way[0])) + 2.0 * rng.standard_normal(),
+            'speed': rng.uniform(0.6, 2.0),
+            'side': rng.uniform(-0.3, 0.3),
+            'above': rng.uniform(-0.3, 0.3),
+        }
+        velocity, spin = cue_strike(table, **aim)
+        shot = simulate(table, velocity, spins=spin, positions=places)
+        sensitive = 0.0
+        for ball, axis in np.ndindex(2, 2):
+            moved = places.copy()
+            moved[ball, axis] += 1e-6
+            other = simulate(table, velocity, spins=spin, positions=moved)
+            away = abs(other.final_positions - shot.final_positions).max()
+            sensitive = max(sensitive, away / 1e-6)
+        if sensitive > 100.0:
+            continue
+        times = np.arange(-30, int(60 * shot.duration) + 5) / 60
+        seen = shot.positions(np.maximum(times, 0.0))
+        meant = aim | {
+            'side': aim['side'] + 0.02 * rng.standard_normal(),
+            'above': aim['above'] + 0.02 * rng.standard_normal(),
+            'speed': aim['speed'] * (1.0 + 0.03 * rng.standard_normal()),
+        }
+        spun = cue_strike(guess, **meant)[1]
+        tracks.append(Track(times, seen + NOISE * rng.standard_normal(seen.shape), spin=spun))
+    return tracks
+
+
+@pytest.mark.soak
+def test_twenty_shots_tell_each_coefficient_of_balls_that_spin_within_2_per_cent():
+    guess, table, true = rolling_tables()
+    result = fit(guess, rolling_tracks(guess, table, 20, 0), noise=NOISE)
+    assert set(result.unknown) <= {'e_ball_ball'}
+    for name, value in result.values.items():
+        assert abs(value / true[name] - 1.0) < 0.02, name
+        assert abs(value - true[name]) < 4.0 * result.errors[name], name
 
 
 def test_bad_input():

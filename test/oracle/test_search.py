@@ -1,11 +1,14 @@
 """The search: its answer beside brute force, its determinism, its budget, and bad input."""
 
 import dataclasses
+import json
 import math
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
+from benchmark.search_problems import problems, true_chance
 from tables import table_of
 
 from pool_sim_ros.oracle import Goal, Noise, find_shots
@@ -13,6 +16,7 @@ from pool_sim_ros.oracle.goal import goal_of
 from pool_sim_ros.oracle.trials import Trials
 from pool_sim_ros.physics import Ball, pool_table
 
+REFERENCE = Path(__file__).parents[1] / 'benchmark' / 'search_reference.json'
 TABLE = table_of([(0.5, 0.5), (1.0, 0.4), (1.5, 0.6)])
 GOAL = Goal(ball='1', to=(1.6, 0.3), within=0.1)
 NOISE = Noise(speed=0.05, azimuth=0.5)
@@ -156,6 +160,54 @@ def test_the_tip_is_sought_too_where_it_may_move(pool):
     assert 0.02 < math.hypot(tip[0].cue['side'], tip[0].cue['above']) <= 0.4 + 1e-12
     truth = chance(pool, goal, Noise.preset('fastfiz'), tip[0], 10_000)
     assert abs(tip[0].chance - truth) < 4.0 * math.sqrt(truth * (1 - truth) / tip[0].shots)
+
+
+def scattered(count, seed):
+    """Return the seven-foot table with its first balls anywhere, at least 1 cm apart."""
+    table, rng = pool_table('7ft'), np.random.default_rng(seed)
+    places = np.empty((0, 2))
+    while len(places) < count:
+        place = rng.uniform((0.08, 0.08), (table.length - 0.08, table.width - 0.08))
+        if (np.hypot(*(places - place).T) > 0.07).all():
+            places = np.vstack([places, place])
+    balls = [
+        dataclasses.replace(ball, position=tuple(place.tolist()))
+        for ball, place in zip(table.balls, places, strict=False)
+    ]
+    return dataclasses.replace(table, balls=tuple(balls))
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(('count', 'least'), [(3, 0.99), (7, 0.76), (10, 0.84), (16, 0.99)])
+def test_balls_are_potted_and_their_chances_are_within_2_per_cent(count, least):
+    """Aim and speed alone, and with the tip anywhere: what is reported beside fresh shots."""
+    table = scattered(count, {3: 1, 7: 2, 10: 3, 16: 4}[count])
+    goal = Goal(ball=table.labels[1], pocket='any') & Goal(keep='C')
+    for shots, offset in ((150_000, 0.0), (300_000, 0.3)):
+        plan = find_shots(table, goal, 'fastfiz', shots, offset=offset)
+        truth = chance(table, goal, Noise.preset('fastfiz'), plan[0], 100_000)
+        assert truth > least and abs(plan[0].chance / truth - 1.0) < 0.02
+
+
+def ratio(problem, shots, seed):
+    """Return the true chance of the best shot over that of the reference."""
+    plan = find_shots(problem.table, problem.goal, problem.noise, shots, seed)
+    aim = np.array([plan[0].speed, plan[0].azimuth, 0.0, 0.0, 0.0])
+    best = json.loads(REFERENCE.read_text())[problem.name]['chance']
+    return true_chance(problem.trials(), aim, 100_000, [9, seed]) / best
+
+
+def test_the_best_of_an_exhaustive_sweep_is_found():
+    (problem,) = [p for p in problems() if p.name == 'place 2 of four']
+    assert ratio(problem, 330_000, 0) > 0.98
+
+
+@pytest.mark.soak
+def test_46_of_48_searches_find_the_best_of_an_exhaustive_sweep():
+    found = [ratio(problem, 330_000, seed) for problem in problems() for seed in range(4)]
+    assert (np.array(found) >= 0.98).mean() >= 0.95
+    soon = [ratio(problem, 130_000, seed) for problem in problems() for seed in range(4)]
+    assert (np.array(soon) >= 0.9).mean() >= 0.95
 
 
 def test_positions_take_the_place_of_the_table_s(plan):
