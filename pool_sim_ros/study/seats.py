@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from pool_sim_ros.study.streams import WORD, draws, mixed
 from pool_sim_ros.study.tasks import State, Task, Turn
 
-
 AHEAD = 32
 """Episodes whose starts are drawn at once: one draw costs as much as all of them."""
 
