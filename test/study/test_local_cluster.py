@@ -3,6 +3,7 @@
 import subprocess
 import sys
 
+import distributed  # noqa: F401, what is started
 import psutil
 import pytest
 from waiting import wait_until
