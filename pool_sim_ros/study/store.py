@@ -78,14 +78,16 @@ def opened(path: Path) -> Store:
     if not path.exists():
         raise FileNotFoundError(f'{path}: there is no such folder')
     try:
+        if not path.is_dir():
+            raise ValueError('it is a file')
         group: Any = zarr.open_group(path, mode='r+', use_consolidated=False)
         attrs = dict(group.attrs)
         if IDENTITY not in attrs:
-            raise ValueError('no sweep made it')
+            raise ValueError('its attributes do not say so')
         return Store(path, group, plan_of(attrs, lambda name: np.asarray(group[name][...])))
     except (ValueError, KeyError, FileNotFoundError, zarr.errors.BaseZarrError) as error:
         why = ' '.join(str(error).split())
-        raise ValueError(f'{path}: it is no sweep of this package: {why}') from None
+        raise ValueError(f'{path}: no sweep of this package made it: {why}') from None
 
 
 def created(path: Path, plan: Plan) -> Store:
