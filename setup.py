@@ -92,7 +92,7 @@ setup(
         'plot': ['matplotlib'],
         'frames': ['pandas', 'xarray'],
         # zarr 3 needs Python 3.11, and so do sweeps.
-        'study': ['dask[distributed]', 'tqdm', 'xarray', "zarr>=3.0.8; python_version >= '3.11'"],
+        'study': ['dask[distributed]', 'tqdm', 'xarray', "zarr>=3.1; python_version >= '3.11'"],
         'fit': ['rosbags', 'scipy'],
         'docs': ['furo', 'myst-parser', 'numpydoc', 'sphinx'],
         'bench': ['cma', 'pytest-benchmark', 'tqdm'],

@@ -17,6 +17,9 @@ from pool_sim_ros.physics.tolerances import ROUNDING_OF_OFFSET
 
 Floats = NDArray[np.float64]
 
+STRAIGHT = np.array([1.0, 0.0, -1.0, 0.0]), np.array([0.0, 1.0, 0.0, -1.0])
+"""Cosines and sines of 0, 90, 180 and 270 degrees."""
+
 
 def cue_strikes(
     table: Table,
@@ -72,15 +75,15 @@ def unit_vectors(degrees: ArrayLike) -> tuple[Floats, Floats]:
         Each value gives the same bits, wherever it stands.
     """
     angles = np.asarray(degrees, dtype=float)
-    quarters = np.rint(angles / 90.0)
-    rest = np.radians(angles - 90.0 * quarters)
-    x, y = np.cos(rest), np.sin(rest)
-    quarter = quarters % 4.0
-    odd = quarter % 2.0 == 1.0
-    cosines, sines = np.where(odd, -y, x), np.where(odd, x, y)
-    turned = quarter >= 2.0
-    # Adding 0 makes the zeros of both signs one.
-    return np.where(turned, -cosines, cosines) + 0.0, np.where(turned, -sines, sines) + 0.0
+    turned = angles - 360.0 * np.rint(angles / 360.0)
+    radians = turned * (np.pi / 180.0)
+    x, y = np.asarray(np.cos(radians)), np.asarray(np.sin(radians))
+    quarters = np.rint(turned / 90.0)
+    straight = turned == 90.0 * quarters
+    if straight.any():
+        quarter = quarters[straight].astype(int) % 4
+        x[straight], y[straight] = STRAIGHT[0][quarter], STRAIGHT[1][quarter]
+    return x, y
 
 
 def _squirt(side: Floats) -> tuple[Floats, Floats]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Iterator
+from concurrent.futures import CancelledError
 from itertools import islice
 from typing import Any
 
@@ -55,6 +57,8 @@ def play_on_cluster(address: str, store: Store, tally: Tally) -> None:
     try:
         _await_workers(client, address, tally)
         _play(client, address, store, tally)
+    except (OSError, CancelledError, asyncio.CancelledError):
+        raise SweepError(f'scheduler: {address!r} is gone; {GO_ON}') from None
     finally:
         client.close()
 
@@ -70,23 +74,28 @@ def _await_workers(client: Any, address: str, tally: Tally) -> None:
 def _play(client: Any, address: str, store: Store, tally: Tally) -> None:
     left = iter(np.flatnonzero(~store.finished()).tolist())
     where = str(store.path.absolute()), store.identity, engine()
+    in_hand: dict[str, int] = {}
 
     def more(count: int) -> Iterator[Any]:
         for number in islice(left, count):
             key = f'pool-{store.identity[:12]}-{number}'
+            in_hand[key] = number
             yield client.submit(play_region, *where, number, key=key, pure=True)
 
     threads = max(sum(client.nthreads().values()), 1)
-    done = as_completed(list(more(max(TASKS_A_THREAD * threads, LEAST_TASKS))), loop=client.loop)
+    first = list(more(max(TASKS_A_THREAD * threads, LEAST_TASKS)))
+    done = as_completed(first, loop=client.loop)
     for future in done:
-        tally.add(_shots_of(future, address, store))
+        check(future, address, store)
+        # What the task returns is known here; to ask for it would take another message.
+        tally.add(store.plan.region(in_hand.pop(future.key)).count)
         done.update(list(more(1)))
 
 
-def _shots_of(future: Any, address: str, store: Store) -> int:
-    """Return what a task gave; raise SweepError, in words, where it failed."""
+def check(future: Any, address: str, store: Store) -> None:
+    """Raise SweepError, in words, where a task has failed."""
     if future.status == 'finished':
-        return int(future.result())
+        return
     if future.status != 'error':
         raise SweepError(f'scheduler: {address!r} is gone; {GO_ON}')
     error = future.exception()

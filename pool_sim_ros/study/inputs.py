@@ -53,6 +53,12 @@ COEFFICIENT_UNITS = {'gravity': 'm/s^2', 'mu_spin': 'm', 'nose_height': 'm'}
 LAYOUT = 'layout'
 """The dimension of a sweep through layouts of all balls."""
 
+ARGUMENTS = (
+    *('velocity', 'spin', 'cue', 'place', 'positions', 'samples', 'seed', 'out', 'keep', 'balls'),
+    *('chunk', 'scheduler', 'workers', 'progress'),
+)
+"""Of `sweep`, for whoever misspells one."""
+
 Inputs = dict[str, Range]
 
 
@@ -154,7 +160,7 @@ def checked_inputs(table: Table, given: Mapping[str, Any]) -> Inputs:
     known = known_inputs(table)
     for name in given:
         if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
+            near = difflib.get_close_matches(name, [*known, *ARGUMENTS], 1)
             hint = f'; did you mean {near[0]}?' if near else ';'
             there = ', '.join(n for n in known if not n.startswith(('x_', 'y_')))
             raise ValueError(

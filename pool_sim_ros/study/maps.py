@@ -128,7 +128,7 @@ def _ball_of(dataset: xarray.Dataset, what: str, ball: str | None) -> str | None
 
 
 def _draw(axes: Axes, dataset: Any, what: str, ball: str | None, names: tuple[str, str]) -> None:
-    from matplotlib.colors import to_rgb
+    from matplotlib import colormaps
 
     axes.clear()
     for child in list(axes.child_axes):
@@ -147,7 +147,8 @@ def _draw(axes: Axes, dataset: Any, what: str, ball: str | None, names: tuple[st
         colours = _colours_of_places(values, table)
     elif what in ('first_hit', 'pocketed', 'failed'):
         there = np.unique(values)
-        palette = {int(k): NOTHING if k == -1 else to_rgb(f'C{int(k) % 10}') for k in there}
+        many = colormaps['tab20']
+        palette = {int(k): NOTHING if k == -1 else many(int(k) % 20)[:3] for k in there}
         colours = np.array([palette[int(k)] for k in there])[np.searchsorted(there, values)]
         key = {_name(what, int(k), table): palette[int(k)] for k in there}
     else:

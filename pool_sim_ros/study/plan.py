@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics import Table, check_layout
 from pool_sim_ros.study.checks import counted
 from pool_sim_ros.study.inputs import LAYOUT, Inputs, coefficients_of, rows_of
-from pool_sim_ros.study.ranges import Normal, Uniform, is_random, row_of
+from pool_sim_ros.study.ranges import Normal, Range, Uniform, is_random, row_of
 from pool_sim_ros.study.shot_random import normals, uniforms, words_of
 
 Floats = NDArray[np.float64]
@@ -190,6 +191,9 @@ def checked_plan(
         and not rows_of(inputs)
     ):
         raise ValueError('samples: it is missing; how many shots are to be drawn?')
+    for name in coefficients_of(table):
+        if name in inputs:
+            _check_coefficient(table, name, inputs[name])
     chosen = table.labels if balls is None else tuple(balls)
     layouts = None if positions is None else _layouts(table, positions)
     kept = _kept(table, keep)
@@ -223,6 +227,15 @@ def _layouts(table: Table, positions: Any) -> Floats:
     for k, layout in enumerate(layouts):
         check_layout(table, layout, f'positions[{k}]')
     return layouts
+
+
+def _check_coefficient(table: Table, name: str, given: Range) -> None:
+    """Raise ValueError where a value cannot be; one that is drawn fails alone."""
+    if isinstance(given, (Uniform, Normal)):
+        return
+    for value in (np.min(given), np.max(given)):
+        changes: dict[str, Any] = {name: float(value)}
+        dataclasses.replace(table, **changes)
 
 
 def _kept(table: Table, keep: Sequence[str] | None) -> tuple[str, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import threading
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
@@ -18,6 +19,7 @@ from pool_sim_ros.study.ranges import is_random, row_of
 from pool_sim_ros.study.shot_random import WORDS, normals, words_of
 
 Floats = NDArray[np.float64]
+Value = Callable[[str], Floats]
 
 CANNOT_BE = 4
 """In `failed`: the tip slips off, or a coefficient that was drawn is out of its range."""
@@ -43,8 +45,9 @@ class Player:
         The arrays are good until the thread plays its next one.
         """
         plan = self._plan
-        velocities, spins = self._strikes(region)
-        positions = self._layouts(region)
+        value = lru_cache(maxsize=None)(lambda name: plan.values(name, region))
+        velocities, spins = self._strikes(region, value)
+        positions = self._layouts(region, value)
         wrong = np.isnan(velocities[:, 0])
         velocities[wrong] = 0.0
         if spins is not None:
@@ -53,7 +56,7 @@ class Player:
         pocketed = (
             np.full((region.count, len(plan.table.balls)), -1) if len(plan.table.pockets) else None
         )
-        for table, part in self._runs(region):
+        for table, part in self._runs(region, value):
             if table is None:
                 wrong[part] = True
                 continue
@@ -75,7 +78,7 @@ class Player:
             outcomes.failed[wrong] = CANNOT_BE
         if (outcomes.failed != 0).any():
             _erase(outcomes, outcomes.failed != 0)
-        return {**self._outcomes(outcomes), **{n: plan.values(n, region) for n in plan.drawn}}
+        return {**self._outcomes(outcomes), **{name: value(name) for name in plan.drawn}}
 
     def _outcomes(self, outcomes: Outcomes) -> dict[str, NDArray[np.generic]]:
         plan, found = self._plan, {}
@@ -107,12 +110,8 @@ class Player:
             self._kept.room = room
         return _part(room, slice(0, count))
 
-    def _strikes(self, region: Region) -> tuple[Floats, Floats | None]:
+    def _strikes(self, region: Region, value: Value) -> tuple[Floats, Floats | None]:
         plan = self._plan
-
-        def value(name: str) -> Floats:
-            return plan.values(name, region)
-
         kind = strike_of(plan.inputs)
         if kind == 'cue':
             names = ('cue_speed', 'azimuth', 'elevation', 'side', 'above')
@@ -130,7 +129,7 @@ class Player:
         turning = [value(name) if name in plan.inputs else still for name in SPINS]
         return velocities, np.stack(turning, axis=1)
 
-    def _layouts(self, region: Region) -> Floats | None:
+    def _layouts(self, region: Region, value: Value) -> Floats | None:
         """Return one layout for all, (n, 2), one a shot, (count, n, 2), or None: the table's."""
         plan, n = self._plan, len(self._plan.table.balls)
         placed = [k for k, label in enumerate(plan.table.labels) if f'x_{label}' in plan.inputs]
@@ -143,27 +142,27 @@ class Player:
         layouts = np.array(np.broadcast_to(base, (region.count, n, 2)))
         for k in placed:
             label = plan.table.labels[k]
-            layouts[:, k, 0] = plan.values(f'x_{label}', region)
-            layouts[:, k, 1] = plan.values(f'y_{label}', region)
+            layouts[:, k, 0] = value(f'x_{label}')
+            layouts[:, k, 1] = value(f'y_{label}')
         if 'jitter' in plan.inputs:
             drawn = [
                 normals(words_of(plan.seed, f'jitter {k}', region.first, region.count))
                 for k in range(-(-2 * n // WORDS))
             ]
             noise = np.concatenate(drawn, axis=1)[:, : 2 * n].reshape(region.count, n, 2)
-            layouts += plan.values('jitter', region)[:, np.newaxis, np.newaxis] * noise
+            layouts += value('jitter')[:, np.newaxis, np.newaxis] * noise
         return layouts
 
-    def _runs(self, region: Region) -> list[tuple[Table | None, slice]]:
+    def _runs(self, region: Region, value: Value) -> list[tuple[Table | None, slice]]:
         """Return which shots are played on which table; None: it cannot be."""
         plan = self._plan
         names = [name for name in coefficients_of(plan.table) if name in plan.inputs]
         if not names:
             return [(plan.table, slice(0, region.count))]
         if all(row_of(plan.inputs[n]) is None and not is_random(plan.inputs[n]) for n in names):
-            fixed = tuple(float(plan.values(n, region)[0]) for n in names)
+            fixed = tuple(float(value(n)[0]) for n in names)
             return [(table_with(plan.table, tuple(names), fixed), slice(0, region.count))]
-        values = np.stack([plan.values(name, region) for name in names], axis=1)
+        values = np.stack([value(name) for name in names], axis=1)
         changes = np.flatnonzero((values[1:] != values[:-1]).any(axis=1)) + 1
         ends = [0, *changes.tolist(), region.count]
         return [

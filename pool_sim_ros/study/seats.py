@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from pool_sim_ros.study.streams import WORD, draws, mixed
 from pool_sim_ros.study.tasks import State, Task, Turn
 
+AHEAD = 32
+"""Episodes whose starts are drawn at once: one draw costs as much as all of them."""
+
 
 class Seats:
     """The state of m environments that do the same task.
@@ -30,7 +33,10 @@ class Seats:
     def __init__(self, task: Task, count: int) -> None:
         self._task = task
         self._seeds = np.zeros(count, np.uint64)
-        self._episodes = np.zeros(count, np.uint64)
+        # The first episode of those ahead, how many of them have begun, and their starts.
+        self._first = np.zeros(count, np.uint64)
+        self._begun = np.zeros(count, np.int64)
+        self._ahead = np.zeros((count, AHEAD), np.int64)
         positions, goals, scores = task.starts
         self.state = State(
             *(np.zeros((count, *part.shape[1:])) for part in (positions, goals, scores))
@@ -39,17 +45,31 @@ class Seats:
     def seed(self, seats: NDArray[np.int64], seeds: Sequence[int]) -> None:
         """Give some environments seeds; their next episode is the first of these."""
         self._seeds[seats] = mixed(np.array([seed % WORD for seed in seeds], np.uint64))
-        self._episodes[seats] = 0
+        self._first[seats] = 0
+        self._look_ahead(seats)
 
     def begin(self, seats: NDArray[np.int64]) -> None:
         """Begin the next episode of some environments."""
-        chosen = draws(self._seeds[seats], self._episodes[seats], len(self._task.starts.scores))
-        self._episodes[seats] += np.uint64(1)
+        begun = self._begun[seats]
+        chosen = self._ahead[seats, begun]
+        begun += 1
+        self._begun[seats] = begun
+        if len(seats) and begun.max() == AHEAD:
+            through = seats[begun == AHEAD]
+            self._first[through] += np.uint64(AHEAD)
+            self._look_ahead(through)
         for part, starts in zip(self.state, self._task.starts, strict=True):
-            part[seats] = starts[chosen]
+            part[seats] = starts.take(chosen, axis=0)
 
-    def play(self, actions: NDArray[np.float64], asleep: NDArray[np.bool_] | None) -> Turn:
-        """Play a shot in each that is not asleep, (m,)."""
+    def _look_ahead(self, seats: NDArray[np.int64]) -> None:
+        """Draw the starts of the episodes to come."""
+        episodes = self._first[seats, np.newaxis] + np.arange(AHEAD, dtype=np.uint64)
+        below = len(self._task.starts.scores)
+        self._ahead[seats] = draws(self._seeds[seats, np.newaxis], episodes, below)
+        self._begun[seats] = 0
+
+    def play(self, actions: NDArray[np.float64], asleep: NDArray[np.int64] | None) -> Turn:
+        """Play a shot in each but those that are asleep, if any."""
         turn = self._task.play(self.state, actions, asleep)
         self.state = turn.state
         return turn
@@ -57,8 +77,4 @@ class Seats:
     def observations(self) -> NDArray[np.float64]:
         """Return positions and goals, (m, 2 n + g) in m; an array of its own."""
         positions, goals, _ = self.state
-        m, n, _ = positions.shape
-        seen = np.empty((m, 2 * n + goals.shape[1]))
-        seen[:, : 2 * n] = positions.reshape(m, 2 * n)
-        seen[:, 2 * n :] = goals
-        return seen
+        return np.concatenate([positions.reshape(len(positions), -1), goals], axis=1)

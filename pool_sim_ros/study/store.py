@@ -33,11 +33,8 @@ from pool_sim_ros.study.plan import Plan, Region
 
 with needs('a sweep', 'study'):
     import zarr
-    from zarr.codecs import BloscCodec
 
-CODEC = BloscCodec(cname='lz4', clevel=3, shuffle='noshuffle', typesize=8)
-"""Most balls rest where they were, which LZ4 finds as it is. Shuffled bytes would be larger, and
-take four times as long."""
+    from pool_sim_ros.study.chunk_files import CODEC, write_chunk
 
 FINISHED = 'record/finished'
 IDENTITY = 'identity'
@@ -67,10 +64,16 @@ class Store:
 
     def write(self, region: Region, outcomes: Mapping[str, NDArray[np.generic]]) -> None:
         """Write a region, then that it is there; raise OSError where that fails."""
+        plan = self.plan
+        place = tuple(each.start // b for each, b in zip(region.slices, plan.block, strict=True))
         for name, values in outcomes.items():
             array = self._arrays[name]
-            array[region.slices] = values.reshape(*region.shape, *values.shape[1:])
-        self._finished[region.number] = 1
+            if region.shape == plan.block:
+                folder = self.path / stored_name(plan, name)
+                write_chunk(array, folder, place + (0,) * (values.ndim - 1), values)
+            else:  # at an end of the array a chunk is filled up
+                array[region.slices] = values.reshape(*region.shape, *values.shape[1:])
+        write_chunk(self._finished, self.path / FINISHED, (region.number,), np.ones(1))
 
 
 def opened(path: Path) -> Store:
@@ -78,14 +81,18 @@ def opened(path: Path) -> Store:
     if not path.exists():
         raise FileNotFoundError(f'{path}: there is no such folder')
     try:
-        group: Any = zarr.open_group(path, mode='r+', use_consolidated=False)
-        attrs = dict(group.attrs)
-        if IDENTITY not in attrs:
-            raise ValueError('no sweep made it')
-        return Store(path, group, plan_of(attrs, lambda name: np.asarray(group[name][...])))
+        if not path.is_dir():
+            raise ValueError('it is a file')
+        # Else zarr looks at each number before it writes a chunk: may all of it be left out?
+        with zarr.config.set({'array.write_empty_chunks': True}):
+            group: Any = zarr.open_group(path, mode='r+', use_consolidated=False)
+            attrs = dict(group.attrs)
+            if IDENTITY not in attrs:
+                raise ValueError('its attributes do not say so')
+            return Store(path, group, plan_of(attrs, lambda name: np.asarray(group[name][...])))
     except (ValueError, KeyError, FileNotFoundError, zarr.errors.BaseZarrError) as error:
         why = ' '.join(str(error).split())
-        raise ValueError(f'{path}: it is no sweep of this package: {why}') from None
+        raise ValueError(f'{path}: no sweep of this package made it: {why}') from None
 
 
 def created(path: Path, plan: Plan) -> Store:
@@ -165,7 +172,9 @@ def _make(path: Path, plan: Plan) -> None:
         )
     record = root.create_group('record')
     shape = (plan.regions,)
-    record.create_array('finished', shape=shape, chunks=(1,), dtype='u1', fill_value=0)
+    record.create_array(
+        'finished', shape=shape, chunks=(1,), dtype='u1', fill_value=0, compressors=None
+    )
     root.attrs.update({**attributes(plan), IDENTITY: uuid.uuid4().hex})
     with warnings.catch_warnings():
         # What xarray looks for first; zarr says that others may not know it.

@@ -21,7 +21,7 @@ def mixed(words: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 
 def draws(seeds: NDArray[np.uint64], episodes: NDArray[np.uint64], below: int) -> NDArray[np.int64]:
-    """Return a whole number from 0 up to `below`, for each seed and episode, (m,) both.
+    """Return a whole number from 0 up to `below`, for each seed and episode, of one shape.
 
     The seeds are `mixed` ones, so that neighbours have nothing in common.
     """

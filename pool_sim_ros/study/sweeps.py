@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from pool_sim_ros.extras import needs
 from pool_sim_ros.physics import Table
+from pool_sim_ros.study.checks import counted
 from pool_sim_ros.study.datasets import dataset_in_memory, open_sweep
 from pool_sim_ros.study.inputs import checked_inputs, named_inputs
 from pool_sim_ros.study.plan import CHUNK, Plan, Region, checked_plan
@@ -81,8 +82,8 @@ def sweep(
     scheduler : str, optional
         Address of a Dask cluster, like tcp://host:8786, whose workers see `out` too.
     workers : int, optional
-        Processes on this machine, if there is no `scheduler`; by default one a core. 0: no other
-        process, and no Dask.
+        Processes on this machine, if there is no `scheduler`; by default one a core, or none for a
+        small sweep. 0: no other process, and no Dask.
     progress : bool, optional
         Whether to show a bar with the time left, and a line about the chunks.
     **others
@@ -114,7 +115,7 @@ def sweep(
         raise ValueError(f'table: {table!r} must be a Table')
     inputs = checked_inputs(table, named_inputs(velocity, spin, cue, place, others))
     plan = checked_plan(table, inputs, positions, samples, seed, keep, balls, chunk)
-    count = _workers(workers, out, scheduler)
+    count = _workers(workers, out, scheduler, plan)
     # The first shot tells of mistakes, and compiles the engine, before any worker starts.
     Player(plan, 1).play(Region(0, 0, 1, (slice(0, 1),) * len(plan.shape)))
     if out is None:
@@ -141,7 +142,7 @@ def _write(
     with Tally(plan.shots, done, progress) as tally:
         if there.all():
             return
-        tally.say(advice(store.plan, workers))
+        tally.say(advice(store.plan, workers if scheduler is None else 1))
         if scheduler is None and workers == 0:
             _play_here(store, tally)
             return
@@ -187,13 +188,13 @@ def advice(plan: Plan, workers: int) -> str:
     return f'{line}; a run that is killed loses those in hand, one a worker'
 
 
-def _workers(workers: int | None, out: Any, scheduler: str | None) -> int:
-    from pool_sim_ros.study.checks import counted
-
+def _workers(workers: int | None, out: Any, scheduler: str | None, plan: Plan) -> int:
     if out is None and (scheduler is not None or workers):
         raise ValueError('out: it is missing; workers write to a folder')
     if workers is not None:
         return counted('workers', workers, 0)
+    if plan.shots <= CHUNK:
+        return 0  # all are played before a worker would start
     try:
         return len(os.sched_getaffinity(0))
     except (AttributeError, OSError):

@@ -89,14 +89,14 @@ class Task(abc.ABC):
         """Return what has been reached, (m,); a shot earns what it adds."""
 
     @abc.abstractmethod
-    def verdicts(self, scores: Floats, pocketed: NDArray[np.int64]) -> tuple[Flags, Flags]:
-        """Return which tables are done, and which are lost, (m,) both."""
+    def verdicts(self, scores: Floats, pocketed: NDArray[np.int64]) -> tuple[Flags, Flags | None]:
+        """Return which tables are done, and which are lost, (m,) both; None: no table can be."""
 
     bonus = 0.0
     """What it earns to be done."""
 
-    def play(self, state: State, actions: Floats, asleep: Flags | None = None) -> Turn:
-        """Play one shot on each table but those that are `asleep`, (m,).
+    def play(self, state: State, actions: Floats, asleep: NDArray[np.int64] | None = None) -> Turn:
+        """Play one shot on each table but those that are `asleep`, if any.
 
         `actions` is (m, a), as `Strikes` has them.
         """
@@ -106,19 +106,20 @@ class Task(abc.ABC):
             if spins is not None:
                 spins[asleep] = 0.0
         outcomes = self._play(velocities, spins, state.positions)
-        positions, goals = outcomes.finals, state.goals
-        failed = outcomes.failed != 0
+        positions, goals, failed = outcomes.finals, state.goals, outcomes.failed.view(np.bool_)
         broken = failed.any()
         if broken:
+            failed = outcomes.failed != 0
             positions[failed] = state.positions[failed]
         scores = self.scores(positions, goals, outcomes.pocketed)
         done, lost = self.verdicts(scores, outcomes.pocketed)
         rewards = scores - state.scores
         if self.bonus:
-            rewards += self.bonus * done
-        if len(self.table.pockets):
+            np.add(rewards, self.bonus, out=rewards, where=done)
+        ended = done
+        if lost is not None:
             rewards -= lost
-        ended = done | lost
+            ended = done | lost
         if broken:
             scores[failed] = state.scores[failed]
             rewards[failed] = 0.0
@@ -202,10 +203,10 @@ class Place(Task):
     def scores(self, positions: Floats, goals: Floats, pocketed: NDArray[np.int64]) -> Floats:
         return -self._distances(positions, goals)
 
-    def verdicts(self, scores: Floats, pocketed: NDArray[np.int64]) -> tuple[Flags, Flags]:
+    def verdicts(self, scores: Floats, pocketed: NDArray[np.int64]) -> tuple[Flags, Flags | None]:
         done = scores >= -self._within
         if not len(self.table.pockets):
-            return done, _NEVER
+            return done, None
         lost = (pocketed[:, 0] >= 0) | (pocketed[:, self._ball] >= 0)
         return done & ~lost, lost
 
@@ -240,6 +241,3 @@ class Pot(Task):
     def verdicts(self, scores: Floats, pocketed: NDArray[np.int64]) -> tuple[Flags, Flags]:
         lost = pocketed[:, 0] >= 0
         return (scores == len(self.table.balls) - 1) & ~lost, lost
-
-
-_NEVER = np.zeros(1, bool)

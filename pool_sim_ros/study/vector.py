@@ -128,17 +128,19 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
                     f'environment {int(self._over.argmax())} is at its end: call '
                     "reset(options={'reset_mask': ...})"
                 )
-            asleep = self._over
-            self._begin(np.flatnonzero(asleep))
+            asleep = self._over.nonzero()[0]
+            self._begin(asleep)
+            # The step on which an episode begins is not one of its shots.
+            self._shots[asleep] = -1
         turn = self._seats.play(given, asleep)
         self._shots += 1
         rewards, terminated, truncated = turn.rewards, turn.ended, turn.failed
         if self._most is not None:
-            truncated = truncated | (self._shots >= self._most)
+            truncated = self._shots >= self._most
+            truncated |= turn.failed
         if asleep is not None:
             rewards[asleep] = 0.0
             terminated[asleep] = truncated[asleep] = False
-            self._shots[asleep] = 0
         infos = self._infos(turn, asleep)
         over = terminated | truncated
         self._any_over = bool(over.any())
@@ -151,18 +153,21 @@ class TaskVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self._seats.begin(chosen)
         self._shots[chosen] = 0
 
-    def _infos(self, turn: Turn, asleep: Flags | None) -> dict[str, Any]:
+    def _infos(self, turn: Turn, asleep: NDArray[np.int64] | None) -> dict[str, Any]:
         """Return what gymnasium makes of the infos of single environments."""
-        found: dict[str, Any] = {}
-        if asleep is not None and asleep.all():
-            return found
-        values = {'duration': turn.outcomes.durations, 'first_hit': turn.outcomes.first_hit}
-        for name, value in values.items():
-            there = np.ones(self.num_envs, bool) if asleep is None else ~asleep
-            if asleep is not None:
-                value[asleep] = 0
-            found[name], found[f'_{name}'] = value, there
-        return found
+        duration, first_hit = turn.outcomes.durations, turn.outcomes.first_hit
+        there = np.ones(self.num_envs, bool)
+        if asleep is not None:
+            if len(asleep) == self.num_envs:
+                return {}
+            # A table on which nothing moves has a duration of 0.
+            there[asleep], first_hit[asleep] = False, 0
+        return {
+            'duration': duration,
+            '_duration': there,
+            'first_hit': first_hit,
+            '_first_hit': there.copy(),
+        }
 
     def _begin_anew(self, over: Flags, infos: dict[str, Any]) -> dict[str, Any]:
         """Begin episodes where others are over, and put their ends into the infos."""

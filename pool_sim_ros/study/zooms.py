@@ -48,16 +48,6 @@ def zoom(
     ------
     ValueError
         For a dataset that no sweep made, and for a window of an input that does not vary.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from pool_sim_ros.physics import report_table
-    >>> from pool_sim_ros.study import polar, sweep
-    >>> angle, speed = np.linspace(0, 350, 8), np.linspace(1, 4, 4)
-    >>> map = sweep(report_table(), velocity=polar(angle, speed), progress=False)
-    >>> dict(zoom(map, angle=(10, 11), speed=(1, 2), points=5).sizes)['angle']
-    5
     """
     points = counted('points', points, 1)
     plan = _plan_of(dataset)

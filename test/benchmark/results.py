@@ -25,6 +25,7 @@ SECTIONS = (
     'Many balls, everything moving, one core',
     'Balls that spin, one core',
     'Environments, one core',
+    'Sweeps, two workers',
     'Memory',
     'Starting',
 )

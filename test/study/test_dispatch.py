@@ -65,7 +65,7 @@ class Gone:
 def test_a_task_that_failed_says_why(future, said, tmp_path):
     store = type('Store', (), {'path': tmp_path})
     with pytest.raises(SweepError, match=said):
-        dispatch._shots_of(future, 'tcp://a:1', store)
+        dispatch.check(future, 'tcp://a:1', store)
 
 
 @pytest.mark.parametrize('address', ['tcp://127.0.0.1:9', 'nonsense', 'http://x'])

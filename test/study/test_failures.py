@@ -8,7 +8,7 @@ import pytest
 from pool_sim_ros.study.failures import failure
 
 
-class KilledWorker(Exception):
+class KilledWorker(Exception):  # noqa: N818, Dask's name
     """As Dask raises it."""
 
 

@@ -52,6 +52,7 @@ def test_tables_have_the_coefficients_of_their_motion():
         ({'vx': 1}, 'vy: it is missing'),
         ({'angle': 1, 'speed': 1, 'vx': 1, 'vy': 1}, 'given twice'),
         ({'angle': 1, 'sped': 1}, 'sped: there is no such input; did you mean speed'),
+        ({'sample': 1}, 'sample: there is no such input; did you mean samples'),
         ({'angle': 1, 'speed': 1, 'x_9': 1}, "place of ball '9': give both"),
         ({'angle': 1, 'speed': 1, 'x_99': 1, 'y_99': 2}, 'x_99: there is no such input'),
         ({'angle': 1, 'speed': 1, 'wz': 1}, 'wz: there is no such input'),

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 
+import distributed  # noqa: F401, what is started
 import psutil
 import pytest
 from waiting import wait_until
@@ -12,6 +13,7 @@ from pool_sim_ros.study.errors import SweepError
 from pool_sim_ros.study.local_cluster import local_cluster
 
 SCRIPT = """
+print('begins', flush=True)
 import sys
 from pool_sim_ros.study.local_cluster import local_cluster
 with local_cluster(1) as address:
@@ -20,12 +22,15 @@ with local_cluster(1) as address:
 """
 
 
-def test_it_ends_with_whoever_started_it_even_one_that_is_killed():
-    """A script without `if __name__ == '__main__'`, as users write them."""
+def test_it_ends_with_whoever_started_it_even_one_that_is_killed(tmp_path):
+    """A script without `if __name__ == '__main__'`, as users write them: no worker runs it too."""
+    script = tmp_path / 'mine.py'
+    script.write_text(SCRIPT)
     user = subprocess.Popen(
-        [sys.executable, '-c', SCRIPT], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        [sys.executable, script], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
     try:
+        assert user.stdout.readline() == 'begins\n'
         assert user.stdout.readline().startswith('tcp://127.0.0.1:')
         children = psutil.Process(user.pid).children(recursive=True)
         assert len(children) >= 2

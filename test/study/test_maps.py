@@ -12,7 +12,6 @@ matplotlib = pytest.importorskip('matplotlib')
 matplotlib.use('Agg')
 
 from matplotlib import pyplot  # noqa: E402
-from matplotlib.colors import to_rgb  # noqa: E402
 
 from pool_sim_ros.study.maps import NOTHING, plot  # noqa: E402
 
@@ -39,7 +38,7 @@ def test_which_ball_is_hit_first(dataset):
     axes = plot(dataset, 'first_hit')
     shown, hit = np.asarray(colours_of(axes)), dataset.first_hit.transpose('speed', 'angle').values
     for number in np.unique(hit):
-        wanted = NOTHING if number == -1 else to_rgb(f'C{number % 10}')
+        wanted = NOTHING if number == -1 else matplotlib.colormaps['tab20'](number % 20)[:3]
         np.testing.assert_allclose(
             shown[hit == number], np.broadcast_to(wanted, (np.sum(hit == number), 3))
         )

@@ -81,6 +81,8 @@ def test_a_table_with_many_balls_has_smaller_chunks():
         ({'angle': [1, 2], 'keep': ['final']}, "keep: 'final' is no outcome"),
         ({'angle': [1, 2], 'keep': []}, 'keep: name at least one'),
         ({'angle': [1, 2], 'balls': ['99']}, "label: '99'"),
+        ({'angle': [1, 2], 'e_ball_ball': 1.5}, 'e_ball_ball: 1.5 must be at most 1'),
+        ({'mu_ball_ball': [-1, 2], 'angle': 1}, 'mu_ball_ball: -1.0 must be at least 0'),
         ({'angle': [1, 2], 'positions': [[1, 2]]}, 'positions: must be layouts'),
         ({'angle': [1, 2], 'positions': TABLE.positions * 0}, r'positions\[0\]'),
     ],

@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess
-import sys
 
 import numpy as np
 import psutil
@@ -53,23 +52,6 @@ def _runs(process):
         return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
     except psutil.NoSuchProcess:
         return False
-
-
-def test_a_script_needs_no_guard(tmp_path):
-    """Nor is it run once more by each worker."""
-    script = tmp_path / 'mine.py'
-    script.write_text(
-        'from pool_sim_ros.physics import report_table\n'
-        'from pool_sim_ros.study import polar, sweep\n'
-        "print('begins')\n"
-        "data = sweep(report_table(), velocity=polar([1, 2, 3], 2.0), out='a.zarr', chunk=1,\n"
-        '             workers=1, progress=False)\n'
-        'print(int(data.failed.sum()))\n'
-    )
-    done = subprocess.run(
-        [sys.executable, script], capture_output=True, text=True, cwd=tmp_path, check=False
-    )
-    assert done.stdout == 'begins\n0\n', done.stderr
 
 
 def test_a_disk_that_fills_ends_in_one_line_and_goes_on_later(tmp_path, monkeypatch):

@@ -1,6 +1,10 @@
 """How far a sweep has come."""
 
+import pytest
+
 from pool_sim_ros.study.tally import Tally
+
+pytest.importorskip('tqdm')
 
 
 def test_a_bar_shows_shots_and_the_time_left(capsys):

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from contextlib import ExitStack, contextmanager
 
+import distributed  # noqa: F401, what is started
 from waiting import wait_until
 
 

@@ -1,6 +1,8 @@
 """Sweeps of the tests, and whether two datasets have the same bits."""
 
 import numpy as np
+import xarray  # noqa: F401, without it and zarr there are no sweeps
+import zarr  # noqa: F401
 
 from pool_sim_ros.physics import report_table
 from pool_sim_ros.study.ranges import normal, uniform
