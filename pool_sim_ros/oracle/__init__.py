@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from pool_sim_ros.oracle.noise import Noise
     from pool_sim_ros.oracle.plan import Failure, Plan, RankedShot
     from pool_sim_ros.oracle.search import find_shots
-    from pool_sim_ros.oracle.tracks import Track, read_tracks
+    from pool_sim_ros.oracle.track_files import read_tracks
+    from pool_sim_ros.oracle.tracks import Track
 else:
     __getattr__ = lazy_exports(
         __name__,
@@ -40,7 +41,7 @@ else:
             'error_budget': 'budget',
             'find_shots': 'search',
             'fit': 'calibration',
-            'read_tracks': 'tracks',
+            'read_tracks': 'track_files',
             'what_if': 'candidates',
         },
     )

@@ -49,6 +49,22 @@ class Judge:
             met &= self._part_met(part, outcomes)
         return met
 
+    def misses(self, outcomes: Outcomes, met: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """Return by how much each shot missed, (m,), in the size of the goal: 1 where it met it.
+
+        A place that is so many times as large would have been met. What has no size is missed by
+        infinitely much.
+        """
+        missed = np.ones(len(met))
+        for part in self.parts:
+            if part.to is None and part.cue_to is None and part.rectangle is None:
+                missed[~self._part_met(part, outcomes)] = np.inf
+            else:
+                missed = np.maximum(missed, self._away(part, outcomes))
+        missed[outcomes.failed != 0] = np.inf
+        missed[met] = 1.0
+        return missed
+
     def instead(self, outcomes: Outcomes, start: NDArray[np.float64]) -> NDArray[np.object_]:
         """Say for each shot which part of the goal it missed first, and how; '' where it met all.
 
@@ -138,6 +154,19 @@ class Judge:
         else:
             met = touched(outcomes, ball) == (part.touches is not None)
         return np.asarray(met)
+
+    def _away(self, part: Goal, outcomes: Outcomes) -> NDArray[np.float64]:
+        """Return how far from the middle of a place its ball ends, in the size of the place."""
+        ball = self._ball_of(part)
+        end = outcomes.finals[:, ball]
+        if part.rectangle is not None:
+            x0, y0, x1, y1 = part.rectangle
+            size = 0.5 * np.array([x1 - x0, y1 - y0])
+            away = (abs(end - (0.5 * (x0 + x1), 0.5 * (y0 + y1))) / size).max(axis=1)
+        else:
+            away = np.hypot(*(end - np.array(part.to or part.cue_to)).T) / part.within
+        away[outcomes.pocketed[:, ball] >= 0] = np.inf
+        return np.asarray(away)
 
     def _why(self, part: Goal, outcomes: Outcomes, moved: NDArray[np.bool_]) -> NDArray[np.object_]:
         """Return words for all shots, which say why they missed a part of the goal."""

@@ -57,7 +57,9 @@ class Layouts:
         # A ball in a mouth of a pocket, beyond the rails, is kept by its jaws alone.
         kept = between & self.free
         self.low[~kept], self.high[~kept] = -np.inf, np.inf
-        self.any_close = bool(near.any() or not clear[self.free].all())
+        self.plain = table.cushions is None and len(table.pockets) == 0
+        self.at_rails = np.flatnonzero(~clear & self.free)
+        self.any_close = bool(near.any() or len(self.at_rails) > 0)
 
     def draw(self, count: int, rng: np.random.Generator) -> NDArray[np.float64] | None:
         """Return so many layouts, (count, n, 2) in m; None where the camera makes no mistake."""
@@ -66,13 +68,13 @@ class Layouts:
         places = self._noisy(count, rng)
         if not self.any_close:
             return places
-        bad = np.arange(count)
-        for _ in range(DRAWS):
-            places[bad] = self._apart(places[bad])
-            bad = bad[self._impossible(places[bad])]
+        places = self._apart(places)
+        bad = np.flatnonzero(self._impossible(places))
+        for _ in range(DRAWS - 1):
             if len(bad) == 0:
                 return places
-            places[bad] = self._noisy(len(bad), rng)
+            places[bad] = self._apart(self._noisy(len(bad), rng))
+            bad = bad[self._impossible(places[bad])]
         places[bad] = self.seen
         return places
 
@@ -82,7 +84,11 @@ class Layouts:
         return self.seen + noise
 
     def _impossible(self, places: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return which layouts cannot be, (m,): the engine says so."""
+        """Return which layouts cannot be, (m,): the engine says so, where there are pockets."""
+        if self.plain:
+            first, second, touch = self.pairs
+            apart = places[:, second] - places[:, first]
+            return np.asarray(((apart**2).sum(axis=2) < touch**2).any(axis=1))
         nothing = np.zeros((len(places), len(self.seen), 2))
         played = simulate_many(
             self.table, nothing, positions=places, until=0.0, errors='mark', threads=1
@@ -91,7 +97,8 @@ class Layouts:
 
     def _apart(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return layouts, (m, n, 2), with their balls between the rails and apart."""
-        places = np.clip(places, self.low, self.high)
+        rails = self.at_rails
+        places[:, rails] = np.clip(places[:, rails], self.low[rails], self.high[rails])
         first, second, touch = self.pairs
         left = np.arange(len(places)) if len(first) else np.arange(0)
         for _ in range(ROUNDS):

@@ -15,7 +15,7 @@ from pool_sim_ros.oracle.sequences import sobol_normals
 from pool_sim_ros.oracle.space import FINEST, Space
 from pool_sim_ros.oracle.trials import Trials
 
-ROUNDS = ((256, 64), (64, 256), (16, 1024), (8, 1024))
+ROUNDS = ((256, 64), (64, 256), (24, 768))
 """Aims, and shots of each, at the budget of `SHOTS`."""
 
 SHOTS = sum(aims * shots for aims, shots in ROUNDS)

@@ -7,34 +7,31 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pool_sim_ros.oracle.assess import assess
 from pool_sim_ros.oracle.checks import checked_positions, time_allowed, whole
-from pool_sim_ros.oracle.climb import climb
+from pool_sim_ros.oracle.climb import climb_best
 from pool_sim_ros.oracle.goal import Goal, goal_of
 from pool_sim_ros.oracle.noise import Noise, NoiseName, noise_of
 from pool_sim_ros.oracle.plan import Plan
-from pool_sim_ros.oracle.race import common, race
-from pool_sim_ros.oracle.space import FINEST, Space, checked_space
+from pool_sim_ros.oracle.race import race
+from pool_sim_ros.oracle.space import checked_space
 from pool_sim_ros.oracle.sweep import Sweep
 from pool_sim_ros.oracle.trials import Trials
 from pool_sim_ros.physics import Table
 
-SWEEP, RACE, CLIMB, COMPARE, FRESH = 0.62, 0.16, 0.10, 0.05, 0.07
+SWEEP, RACE, CLIMB, FRESH = 0.5, 0.15, 0.25, 0.1
 """Shares of the shots. A good map matters most: what it misses nobody finds later."""
+
+EVENLY, POWERS = 0.6, (1.0, 2.0)
+"""Of the sweep, what is spread evenly; and how much the rest prefers the better places."""
 
 DEADLINES = {'sweep': 0.65, 'race': 0.8, 'climb': 0.9}
 """Shares of `seconds` after which a stage ends, so that those after it have some time left."""
 
-CLIMBERS, CLIMBS = 4, 2
-"""Aims that climb, and how often."""
-
 PEAKS = 256
 """Of the map that are raced."""
-
-DIFFERENT = 2.0
-"""Standard deviations between two shots of an answer: closer ones are the same shot."""
 
 FEWEST = 1000
 """Shots below which a search would find nothing but luck."""
@@ -129,8 +126,12 @@ def find_shots(
 
         return is_late
 
-    sweep = Sweep(trials, space, int(SWEEP * shots), seed)
-    sweep.go_on(int(SWEEP * shots), late('sweep'))
+    sweep = Sweep(trials, space, int(EVENLY * SWEEP * shots), seed)
+    sweep.go_on(int(EVENLY * SWEEP * shots), late('sweep'))
+    for power in POWERS:
+        if not cut:
+            part = (1.0 - EVENLY) / len(POWERS)
+            sweep.focus(int(part * SWEEP * shots), power, late('sweep'))
     if sweep.met == 0 and not cut:
         sweep.go_on(shots, late('sweep'))
     if sweep.met == 0:
@@ -141,49 +142,17 @@ def find_shots(
     cut.clear()
     aims = race(trials, space, sweep.peaks(PEAKS), int(RACE * budget), seed, late('race'))
     aims = climb_best(trials, space, aims, (int(CLIMB * budget), count), seed, late('climb'))
-    best = rank(trials, space, aims, (int(COMPARE * budget), count), seed)
-    fresh = max(int(FRESH * budget) // len(best), 100)
+    fresh = int(FRESH * budget)
     ranked = [
-        assess(trials, aim, fresh, np.random.default_rng([seed, 6, k]))
-        for k, aim in enumerate(best)
+        assess(trials, aim, max(share, 100), np.random.default_rng([seed, 6, k]))
+        for k, (aim, share) in enumerate(zip(aims, shares(fresh, len(aims)), strict=True))
     ]
     found = [shot for shot in ranked if shot.chance > 0.0]
     return Plan(found, trials.played, bool(cut) or not swept_all)
 
 
-def climb_best(
-    trials: Trials,
-    space: Space,
-    aims: NDArray[np.float64],
-    budget: tuple[int, int],
-    seed: int,
-    late: Callable[[], bool],
-) -> NDArray[np.float64]:
-    """Return the aims, (k, 5), those of the best ones that climbed first, then as they were."""
-    shots, count = budget
-    climbers = min(CLIMBERS, len(aims))
-    each = max(shots // (CLIMBS * CLIMBERS), 64)
-    climbed = aims[:climbers].copy()
-    for turn in range(CLIMBS):
-        if late():
-            break
-        for k in range(climbers):
-            rng = np.random.default_rng([seed, 4, turn, k])
-            climbed[k] = climb(trials, space, climbed[k], each, rng)
-    return np.concatenate([climbed, aims[: max(count, climbers)]])
-
-
-def rank(
-    trials: Trials,
-    space: Space,
-    aims: NDArray[np.float64],
-    budget: tuple[int, int],
-    seed: int,
-) -> NDArray[np.float64]:
-    """Return the best aims, (k, 5), best first, by shots with noise that they share."""
-    shots, count = budget
-    each = max(shots // len(aims), 64)
-    met, _ = common(trials, aims, each, [seed, 5])
-    order = np.argsort(-met.sum(axis=1), kind='stable')
-    apart = DIFFERENT * np.maximum(trials.spread, FINEST)
-    return aims[space.distinct(aims, order, count, apart)]
+def shares(shots: int, count: int) -> list[int]:
+    """Share shots out to so many aims: the best gets half of them."""
+    if count == 1:
+        return [shots]
+    return [shots // 2] + [shots // 2 // (count - 1)] * (count - 1)

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-import csv
-import os
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-from pool_sim_ros.physics import Table
-
-COLUMNS = ['t', 'ball', 'x', 'y']
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,54 +47,6 @@ class Track:
             object.__setattr__(self, 'spin', spin)
         object.__setattr__(self, 'times', times)
         object.__setattr__(self, 'positions', positions)
-
-
-def read_tracks(table: Table, paths: Sequence[str | os.PathLike[str]]) -> list[Track]:
-    """Read tracks from CSV files, one shot each, with the columns t, ball, x and y.
-
-    Parameters
-    ----------
-    table : Table
-        Whose labels stand in the column `ball`.
-    paths : sequence of path
-
-    Returns
-    -------
-    list of Track
-
-    Raises
-    ------
-    OSError
-        Where a file cannot be read.
-    ValueError
-        For a line that is none; names file and line.
-    """
-    return [read_track(table, path) for path in paths]
-
-
-def read_track(table: Table, path: str | os.PathLike[str]) -> Track:
-    """Read one track, as `read_tracks` does."""
-    seen: dict[float, NDArray[np.float64]] = {}
-    with open(path, newline='', encoding='utf-8') as file:
-        lines = csv.reader(file)
-        if next(lines, None) != COLUMNS:
-            raise ValueError(f'{path}: line 1 must be {",".join(COLUMNS)}')
-        for line in lines:
-            where = f'{path}: line {lines.line_num}'
-            if len(line) != 4:
-                raise ValueError(f'{where}: {len(line)} fields must be 4')
-            try:
-                t, x, y = float(line[0]), float(line[2]), float(line[3])
-            except ValueError:
-                raise ValueError(f'{where}: t, x and y must be numbers') from None
-            if line[1] not in table.labels:
-                raise ValueError(f'{where}: ball {line[1]!r} is not on the table')
-            frame = seen.setdefault(t, np.full((len(table.balls), 2), np.nan))
-            frame[table.labels.index(line[1])] = x, y
-    times = sorted(seen)
-    if not times:
-        raise ValueError(f'{path}: there is no frame in it')
-    return Track(np.array(times), np.array([seen[t] for t in times]))
 
 
 def as_floats(name: str, values: ArrayLike) -> NDArray[np.float64]:

@@ -5,11 +5,15 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from process_harness import Process, node_process
 from rclpy.serialization import deserialize_message
 
 from pool_sim_ros.me212.log import published_final_positions
+from pool_sim_ros.me212.shots import cue_velocity
+from pool_sim_ros.oracle import read_tracks
+from pool_sim_ros.physics import report_table, simulate
 from pool_sim_ros.ros import interface, messages
 from pool_sim_ros.ros.recorder import TOPICS
 
@@ -85,6 +89,13 @@ def test_it_holds_the_whole_shot(recording):
     assert 0 < contacts < done['events']
     shown = {marker.ns for array in kept['markers'] for marker in array.markers}
     assert {'table', 'balls', 'labels', 'trails', 'flashes'} <= shown
+
+
+def test_the_oracle_reads_its_track(recording):
+    (track,) = read_tracks(report_table(), [recording])
+    expected = simulate(report_table(), cue_velocity(2, report_table()), integrator='time_slice')
+    assert track.times[0] == 0.0 and len(track.times) > 60
+    np.testing.assert_allclose(track.positions, expected.positions(track.times), atol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -110,6 +110,28 @@ def test_a_shot_that_failed_meets_nothing():
     assert judge(Goal(keep='1')).met(result).tolist() == [True, False]
 
 
+def test_how_far_shots_missed_in_the_size_of_the_goal():
+    finals = np.tile(POOL.positions, (5, 1, 1))
+    finals[:, 1] = [(0.5, 0.5), (0.5, 0.6), (0.8, 0.5), (0.5, 0.5), (0.5, 0.5)]
+    caught = np.full((5, 16), -1)
+    caught[3, 1] = 2
+    result = outcomes(finals, caught, [1, 1, 1, 1, 2], [0, 0, 0, 0, 0])
+
+    def misses(goal):
+        mine = judge(goal, POOL)
+        return mine.misses(result, mine.met(result)).tolist()
+
+    near = misses(Goal(ball='1', to=(0.5, 0.5), within=0.05))
+    assert near == pytest.approx([1.0, 2.0, 6.0, np.inf, 1.0])
+    area = misses(Goal(ball='1', rectangle=(0.4, 0.45, 0.6, 0.55)))
+    assert area == pytest.approx([1.0, 2.0, 3.0, np.inf, 1.0])
+    both = misses(Goal(ball='1', to=(0.5, 0.5), within=0.05) & Goal(first_hit='1'))
+    assert both == pytest.approx([1.0, 2.0, 6.0, np.inf, np.inf])
+    failed = result._replace(failed=np.array([0, 0, 0, 0, 2], np.int8))
+    mine = judge(Goal(ball='1', to=(0.5, 0.5), within=0.05), POOL)
+    assert mine.misses(failed, mine.met(failed))[4] == np.inf
+
+
 def test_what_came_instead():
     start = np.array(POOL.positions)
     finals = np.tile(start, (6, 1, 1))

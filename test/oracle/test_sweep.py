@@ -74,10 +74,10 @@ def test_a_goal_that_is_never_met_has_no_peaks():
 def test_few_shots_and_no_noise_make_a_coarse_map():
     shared = sweep_of(Goal(first_hit='1'), Noise(), shots=10_000)
     (chart,) = shared.maps
-    # Ten shots a standard deviation's ellipse: 4 pi sd sd / area of 10,000.
+    # Five shots a standard deviation's ellipse: 4 pi sd sd / area of 10,000.
     ellipse = 4.0 * np.pi * chart.spread.prod() / (2.5 * 360.0)
-    assert 10_000 * ellipse == pytest.approx(10.0, rel=1e-6)
-    assert chart.successes.size < 100_000
+    assert 10_000 * ellipse == pytest.approx(5.0, rel=1e-6)
+    assert chart.successes.size < 200_000
 
 
 def test_half_of_the_shots_hit_the_middle_of_a_ball_that_spins():
@@ -105,7 +105,9 @@ def test_smoothing_is_a_plain_sum(axis):
 
 def test_a_map_with_one_success_is_the_noise_round_it():
     chart = Map((1.0, 2.0), np.array([0.05, 1.0]))
-    chart.add(np.array([[1.5, 359.9], [1.5, 180.0]]), np.array([True, False]))
+    chart.spread_evenly(2)
+    met = np.array([True, False])
+    chart.add(np.array([[1.5, 359.9], [1.5, 180.0]]), met, np.where(met, 1.0, np.inf))
     chances = chart.chances()
     row, column = np.unravel_index(chances.argmax(), chances.shape)
     assert chart.low + (row + 0.5) * chart.cell[0] == pytest.approx(1.5, abs=chart.cell[0])
@@ -113,3 +115,43 @@ def test_a_map_with_one_success_is_the_noise_round_it():
     # Two cells are one standard deviation, and north is crossed.
     assert chances[row, 1] / chances[row, column] == pytest.approx(np.exp(-0.5), rel=1e-3)
     assert chances.sum() * 2 / chances.size == pytest.approx(1.0)
+
+
+def test_focused_strokes_are_many_where_the_first_succeeded_and_count_for_less():
+    """A map of strokes that are played twice as often there says the same of every aim."""
+    rng = np.random.default_rng(3)
+    chart = Map((1.0, 2.0), np.array([0.05, 5.0]))
+
+    def play(strokes):
+        met = abs(strokes[:, 0] - 1.5) + abs(strokes[:, 1] - 90.0) / 100.0 < 0.1
+        chart.add(strokes, met, np.where(met, 1.0, np.inf))
+        return met.mean()
+
+    size = np.array([chart.high - chart.low, 360.0])
+    chart.spread_evenly(40_000)
+    rare = play((chart.low, 0.0) + rng.random((40_000, 2)) * size)
+    before = chart.chances()
+    chart.look_where(1.0, 1.0)
+    often = play(chart.focused(40_000, rng))
+    assert often > 5.0 * rare > 0.0
+    after = chart.chances()
+    assert chart.played.sum() == pytest.approx(80_000)
+    assert after.max() == pytest.approx(before.max(), rel=0.1)
+    assert after.sum() == pytest.approx(before.sum(), rel=0.1)
+
+
+def test_near_misses_tell_where_to_look():
+    """Of a goal that hardly any shot meets, the focus plays more shots that meet it."""
+    rare = Goal(ball='1', to=(1.6, 0.3), within=0.01)
+    even = sweep_of(rare, shots=20_000)
+    focused = sweep_of(rare, shots=10_000)
+    focused.focus(5000, 1.0, lambda: False)
+    focused.focus(5000, 2.0, lambda: False)
+    assert focused.trials.played == pytest.approx(20_000, abs=4)
+    assert even.met < 20 and focused.met > 5 * max(even.met, 1)
+
+
+def test_nothing_near_is_no_focus():
+    sweep = sweep_of(Goal(first_hit='1') & Goal(avoid='1'), shots=5000)
+    sweep.focus(5000, 1.0, lambda: False)
+    assert sweep.trials.played == 5000
