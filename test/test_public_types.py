@@ -132,7 +132,7 @@ def play(context: Context) -> str:
         client.place({'9': (0.5, 0.4)}, timeout=5.0)
         outcome = client.play(velocity=(-2.0, 0.3), timeout=5.0)
         client.play(cue={'speed': 2.0, 'azimuth': 180.0}, timeout=5.0)
-        write_bag(Path('shot.mcap'), recorder.messages())
+        write_bag(Path('shot.mcap'), recorder.messages)
         return str(outcome['phase'])
     except SimulatorError as error:
         return str(error)
