@@ -30,8 +30,11 @@ def run(name, *arguments, folder, timeout=120):
     return done.stdout
 
 
-def test_there_are_five_scripts_and_two_notebooks():
-    assert len(list(EXAMPLES.glob('*.py'))) == 5 and len(NOTEBOOKS) == 2
+def test_every_script_is_run_by_a_test():
+    tests = '\n'.join(path.read_text() for path in (PROJECT / 'test').rglob('test_*.py'))
+    scripts = {path.name for path in EXAMPLES.glob('*.py')}
+    assert len(scripts) >= 5 and len(NOTEBOOKS) >= 2
+    assert not {name for name in scripts if f"'{name}'" not in tests}
 
 
 def test_the_report_in_ten_lines_ends_where_it_printed(tmp_path):

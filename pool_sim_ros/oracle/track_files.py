@@ -28,6 +28,11 @@ def read_tracks(table: Table, paths: Sequence[str | os.PathLike[str]]) -> list[T
         shots that were played in it. Any other file is a CSV with the columns t, ball, x and y, and
         has one shot.
 
+    Returns
+    -------
+    list of Track
+        In the order of the files, and of the shots in each.
+
     Raises
     ------
     OSError

@@ -77,7 +77,7 @@ class OracleNode(GuardedNode):
         return self._compiled
 
     def stop(self, timeout: float) -> bool:
-        """Make no other plan; return whether the one in the making ended within `timeout` s."""
+        """Return whether the plan in the making ended within `timeout` s; make no other."""
         return self._desk.close(timeout)
 
     def destroy_node(self) -> None:

@@ -113,7 +113,7 @@ class PlanClient:
         return wanted.future
 
     def cancel(self, future: Future) -> None:
-        """End the search for a plan; its future then raises OracleError."""
+        """End the search for a plan; its `future` then raises OracleError."""
         for request_id, wanted in list(self._wanted.items()):
             if wanted.future is future:
                 wanted.request = json.dumps({'id': request_id, 'cancel': True})
