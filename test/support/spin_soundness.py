@@ -165,9 +165,9 @@ def least_parting(contacts):
 def energy_rises(table, velocity, spin, shot, instants):
     """Return at which instants there is more energy than before by more than docs/physics.md says.
 
-    A weak contact parts at u = 1 mm/s at most, faster where there were many: `least_parting`. One adds at most
-    m u^2 / 2, with the reduced mass m of two balls; k of one instant add at most M (k u)^2 / 2,
-    where M is the mass of the balls in them.
+    A weak contact parts at u = 1 mm/s at most, faster where there were many: `least_parting`. One
+    adds at most m u^2 / 2, with the reduced mass m of two balls; k of one instant add at most
+    M (k u)^2 / 2, where M is the mass of the balls in them.
     """
     n = len(table.balls)
     v, w = np.zeros((1, n, 2)), np.zeros((1, n, 3))
