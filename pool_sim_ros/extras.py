@@ -29,6 +29,7 @@ def needs(what: str, extra: str) -> Iterator[None]:
         if package == 'pool_sim_ros':
             raise
         raise ModuleNotFoundError(
-            f"{what} needs {package}, not installed here: pip install 'pool_sim_ros[{extra}]'",
+            f'{what} needs {package}, not installed here: pip install {package} '
+            f'(the extra {extra} has all that it needs)',
             name=package,
         ) from None

@@ -9,7 +9,8 @@ def test_the_line_names_the_package_and_the_extra():
     with pytest.raises(ModuleNotFoundError) as caught, needs('shot.plot()', 'plot'):
         import no_such_package.part  # noqa: F401
     assert str(caught.value) == (
-        "shot.plot() needs no_such_package, not installed here: pip install 'pool_sim_ros[plot]'"
+        'shot.plot() needs no_such_package, not installed here: pip install no_such_package '
+        '(the extra plot has all that it needs)'
     )
     assert caught.value.name == 'no_such_package' and caught.value.__cause__ is None
 

@@ -71,8 +71,8 @@ def unit_vectors(degrees: ArrayLike) -> tuple[Floats, Floats]:
 
     Parameters
     ----------
-    degrees : array_like
-        Each value gives the same bits, wherever it stands.
+    degrees : array_like of shape (m,), or any other
+        Directions, degrees. Each value gives the same bits, wherever it stands.
     """
     angles = np.asarray(degrees, dtype=float)
     turned = angles - 360.0 * np.rint(angles / 360.0)

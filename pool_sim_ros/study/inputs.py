@@ -67,9 +67,10 @@ def polar(angle: Any, speed: Any) -> dict[str, Any]:
 
     Parameters
     ----------
-    angle, speed
-        Degrees counterclockwise from +x; m/s. Each is a number, a row of numbers (k,), `uniform` or
-        `normal`.
+    angle : float, array_like of shape (k,), uniform or normal
+        Degrees, counterclockwise from +x.
+    speed : float, array_like of shape (k,), uniform or normal
+        m/s.
     """
     return {'angle': angle, 'speed': speed}
 
@@ -79,26 +80,36 @@ def xy(x: Any, y: Any) -> dict[str, Any]:
 
     Parameters
     ----------
-    x, y
-        Each is a number, a row of numbers (k,), `uniform` or `normal`.
+    x, y : float, array_like of shape (k,), uniform or normal
+        m/s, or m.
     """
     return {'x': x, 'y': y}
 
 
 def xyz(x: Any = 0.0, y: Any = 0.0, z: Any = 0.0) -> dict[str, Any]:
-    """Return a spin in rad/s by its coordinates, z up; each as in `xy`."""
+    """Return a spin by its coordinates.
+
+    Parameters
+    ----------
+    x, y, z : float, array_like of shape (k,), uniform or normal
+        rad/s, z up.
+    """
     return {'x': x, 'y': y, 'z': z}
 
 
 def cue(
     speed: Any, azimuth: Any, elevation: Any = 0.0, side: Any = 0.0, above: Any = 0.0
 ) -> dict[str, Any]:
-    """Return a stroke of the cue, as `cue_strike` takes it: m/s, degrees, and parts of the radius.
+    """Return a stroke of the cue, as `cue_strike` takes it.
 
     Parameters
     ----------
-    speed, azimuth, elevation, side, above
-        Each is a number, a row of numbers (k,), `uniform` or `normal`.
+    speed : float, array_like of shape (k,), uniform or normal
+        m/s.
+    azimuth, elevation : float, array_like of shape (k,), uniform or normal
+        Degrees.
+    side, above : float, array_like of shape (k,), uniform or normal
+        Offsets of the tip, radii of the ball.
     """
     values = {'azimuth': azimuth, 'elevation': elevation, 'side': side, 'above': above}
     return {'cue_speed': speed, **values}

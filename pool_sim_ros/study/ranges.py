@@ -45,7 +45,7 @@ def uniform(low: float, high: float) -> Uniform:
     Parameters
     ----------
     low, high : float
-        In the unit of the input.
+        In units of the input.
 
     Raises
     ------
@@ -64,9 +64,9 @@ def normal(mean: ArrayLike, deviation: float) -> Normal:
     Parameters
     ----------
     mean : float or array_like of shape (k,)
-        In the unit of the input. The sweep goes through a row of means.
+        In units of the input. The sweep goes through a row of means.
     deviation : float
-        The standard deviation, 0 or more.
+        The standard deviation, 0 or more, in units of the input.
 
     Raises
     ------

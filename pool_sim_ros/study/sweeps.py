@@ -102,6 +102,8 @@ def sweep(
         For an input that is none, or cannot be; names it.
     FileExistsError
         Where `out` has another sweep, or something else.
+    FileNotFoundError
+        Where `out` vanishes meanwhile.
     SweepError
         Where a sweep cannot go on: the disk is full, the scheduler is gone. What is written stays.
     ModuleNotFoundError

@@ -48,6 +48,8 @@ def zoom(
     ------
     ValueError
         For a dataset that no sweep made, and for a window of an input that does not vary.
+    ModuleNotFoundError
+        Where the extra `study` is not installed.
     """
     points = counted('points', points, 1)
     plan = _plan_of(dataset)

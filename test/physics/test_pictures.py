@@ -116,5 +116,6 @@ def test_without_matplotlib_one_line_names_the_extra(shot, name, monkeypatch):
     with pytest.raises(ModuleNotFoundError) as caught:
         getattr(shot, name)()
     assert str(caught.value) == (
-        f"{name}() needs matplotlib, not installed here: pip install 'pool_sim_ros[plot]'"
+        f'{name}() needs matplotlib, not installed here: pip install matplotlib '
+        '(the extra plot has all that it needs)'
     )
