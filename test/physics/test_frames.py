@@ -122,10 +122,8 @@ def test_without_the_package_one_line_names_the_extra(outcomes, call, line, monk
     monkeypatch.setattr(builtins, '__import__', without)
     with pytest.raises(ModuleNotFoundError) as caught:
         call(outcomes)
-    package = line.split()[-1]
-    assert str(caught.value) == (
-        f'{line}, not installed here: pip install {package} (the extra frames has all that it needs)'
-    )
+    told = f'{line}, not installed here: pip install {line.split()[-1]} '
+    assert str(caught.value) == f'{told}(the extra frames has all that it needs)'
 
 
 def test_large_results_stay_arrays():
