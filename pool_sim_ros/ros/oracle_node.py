@@ -9,6 +9,7 @@ import json
 from typing import Any
 
 from rclpy.context import Context
+from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
@@ -55,7 +56,13 @@ class OracleNode(GuardedNode):
         threads: int | None = None,
         context: Context | None = None,
     ) -> None:
-        super().__init__(node_name, context=context)
+        # Without services: an executor looks at each of them before every answer.
+        super().__init__(
+            node_name,
+            context=context,
+            start_parameter_services=False,
+            parameter_overrides=[Parameter('start_type_description_service', value=False)],
+        )
         self._threads = threads
         self._view = SimulatorView(self.context, simulator, 'oracle_view')
         self._table: Table | None = None
