@@ -24,7 +24,7 @@ from pool_sim_ros.physics import Table
 SWEEP, RACE, CLIMB, FRESH = 0.5, 0.15, 0.25, 0.1
 """Shares of the shots. A good map matters most: what it misses nobody finds later."""
 
-EVENLY, POWERS = 0.7, (1.0, 2.0)
+EVENLY, POWERS = 0.6, (1.0, 2.0)
 """Of the sweep, what is spread evenly; and how much the rest prefers the better places."""
 
 DEADLINES = {'sweep': 0.65, 'race': 0.8, 'climb': 0.9}
