@@ -63,9 +63,9 @@ class Seats:
 
     def _look_ahead(self, seats: NDArray[np.int64]) -> None:
         """Draw the starts of the episodes to come."""
-        episodes = self._first[seats, np.newaxis] + np.arange(AHEAD, dtype=np.uint64)
+        episodes = np.add.outer(self._first[seats], np.arange(AHEAD, dtype=np.uint64))
         below = len(self._task.starts.scores)
-        self._ahead[seats] = draws(self._seeds[seats, np.newaxis], episodes, below)
+        self._ahead[seats] = draws(self._seeds[seats][:, np.newaxis], episodes, below)
         self._begun[seats] = 0
 
     def play(self, actions: NDArray[np.float64], asleep: NDArray[np.int64] | None) -> Turn:
