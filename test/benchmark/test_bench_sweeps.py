@@ -25,12 +25,6 @@ ROUNDS, REGIONS = 15, 6
 TARGETS = {'played': '0.85', 'played and written': '0.70'}
 
 
-def play_only(path, identity, number):
-    """What `play_region` does, but for the writing."""
-    store, player = region_task._open(path, identity)
-    return len(player.play(store.plan.region(number))['failed'])
-
-
 def test_shots_beside_simulate_many(results, tmp_path):
     table = report_table()
     inputs = checked_inputs(table, {'angle': uniform(0, 360), 'speed': uniform(0.5, 4)})
@@ -47,6 +41,11 @@ def test_shots_beside_simulate_many(results, tmp_path):
     out = simulate_many(table, velocities, threads=2)
     numbers = itertools.count()
     with local_cluster(2) as address, distributed.Client(address, set_as_default=False) as client:
+
+        def play_only(path, identity, number):
+            """What `play_region` does, but for the writing; in here, so that it goes by value."""
+            store, player = region_task._open(path, identity)
+            return len(player.play(store.plan.region(number))['failed'])
 
         def plain():
             simulate_many(table, velocities, threads=2, out=out)

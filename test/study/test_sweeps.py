@@ -19,7 +19,7 @@ from pool_sim_ros.study.plan import checked_plan
 from pool_sim_ros.study.store import Store, opened
 from pool_sim_ros.study.sweeps import advice, sweep
 
-SHOTS = {'samples': 200, 'seed': 2}
+SHOTS = {'samples': 200, 'seed': 2, 'keep': ['finals', 'failed']}
 
 
 def test_killed_twice_and_resumed_it_is_the_same(tmp_path):
@@ -27,6 +27,7 @@ def test_killed_twice_and_resumed_it_is_the_same(tmp_path):
     out = tmp_path / 'map.zarr'
     record = out / 'record' / 'finished' / 'c'
     args = ['sweep', 'report', str(out), *TEXTS, '--samples', '200', '--seed', '2']
+    args += ['--keep', 'finals', 'failed']
 
     def finished():
         return len(list(record.iterdir())) if record.is_dir() else 0
