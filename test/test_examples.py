@@ -14,7 +14,7 @@ PAGES = [PROJECT / 'README.md', *sorted((PROJECT / 'docs').glob('*.md'))]
 ROS = re.compile(r'^ *(from|import) +(rclpy|pool_sim_ros\.ros)\b', re.MULTILINE)
 """A block that imports one of these needs a simulator and is left out here."""
 
-EXTRAS = {'distributed', 'gymnasium', 'matplotlib', 'pandas', 'xarray', 'zarr'}
+EXTRAS = {'dask', 'distributed', 'gymnasium', 'matplotlib', 'pandas', 'tqdm', 'xarray', 'zarr'}
 """Packages without which a block is skipped."""
 
 

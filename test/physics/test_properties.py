@@ -1,12 +1,13 @@
 """Any table and any shot, as hypothesis finds them: the checks of `test_robust`."""
 
 import numpy as np
-from hypothesis import HealthCheck, given, settings
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from soundness import assert_sound
 from tables import under
 
-from pool_sim_ros.physics import Ball, Table
+from pool_sim_ros.physics import Ball, ShotTooLong, Table, simulate
 
 CELL = 0.12  # m: the side of the square that each ball has to itself
 COLUMNS = 10
@@ -51,6 +52,36 @@ def coulomb_tables(draw):
     )
 
 
+def is_wedged(table):
+    """Whether a ball has no room between two rails that lose hardly anything: see below."""
+    room = min(table.length, table.width) - 2.0 * table.radii.max()
+    return table.e_ball_cushion > 0.9 and room < 1e-9
+
+
+@pytest.mark.xfail(raises=ShotTooLong, strict=True, reason='such a shot is given up')
+def test_balls_without_room_between_rails_that_lose_nothing():
+    radii, places = (0.06,) * 4 + (0.03, 0.06), (0.06, 0.18, 0.3, 0.42, 0.51, 0.66)
+    balls = [
+        Ball(str(k), 0.16, radius, (x, radius), is_cue=k == 0)
+        for k, (radius, x) in enumerate(zip(radii, places, strict=True))
+    ]
+    table = Table(
+        0.72,
+        0.12,
+        balls,
+        mu_ball_ball=0.0,
+        mu_ball_surface=0.05,
+        mu_ball_cushion=0.0,
+        e_cue_ball=0.0,
+        e_ball_ball=0.0,
+        e_ball_cushion=1.0,
+        ball_friction='coulomb',
+    )
+    velocities = np.zeros((6, 2))
+    velocities[5] = -1.0, -1.0
+    simulate(table, velocities, until=0.2)
+
+
 def velocities_of(table):
     return st.lists(
         st.tuples(speeds, speeds), min_size=len(table.balls), max_size=len(table.balls)
@@ -68,6 +99,7 @@ SETTINGS = settings(
 @given(st.data())
 def test_any_shot_under_coulomb(data):
     table = data.draw(coulomb_tables())
+    assume(not is_wedged(table))
     assert_sound(table, data.draw(velocities_of(table)), most_events=100_000, until=0.2)
 
 

@@ -151,6 +151,7 @@ def test_a_ball_is_dragged_to_where_it_shall_lie(page):
 
 def test_the_cue_ball_is_dragged_where_this_is_chosen(page):
     page.page.click('#take')
+    page.get('scrollTo(0, 0)')  # the button may lie below the table
     page.page.mouse.move(*page.pixel(*TABLE.positions[0]))
     page.page.mouse.down()
     page.page.mouse.move(*page.pixel(1.7, 0.8), steps=5)
