@@ -22,8 +22,8 @@ FOR_USERS = ('physics', 'oracle', 'study', 'me212', 'ros')
 
 FOR_COMMANDS = {
     *('LastingExecutor', 'Publishers', 'messages', 'check_environment', 'digests', 'init_ros'),
-    *('Inbox', 'SimulatorView', 'leave_at_once', 'node_name', 'ros_command'),
-    'shut_down_on_signals',
+    *('Inbox', 'SimulatorView', 'leave_at_once', 'add_simulator', 'ros_command'),
+    *('add_timeout', 'shut_down_on_signals'),
 }
 """What `ros` exports for `cli` and `web_view` alone."""
 

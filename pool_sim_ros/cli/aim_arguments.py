@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from pool_sim_ros.console import Parser, count, number, positive
-from pool_sim_ros.ros import NODE_NAME, node_name
+from pool_sim_ros.ros import add_simulator, add_timeout
 
 if TYPE_CHECKING:
     from pool_sim_ros.oracle import Noise
@@ -33,20 +33,8 @@ class AimParser(Parser):
         self._add_goals()
         self._add_search()
         self.add_argument('--shoot', action='store_true', help='play the best shot')
-        self.add_argument(
-            '--node',
-            type=node_name,
-            default=NODE_NAME,
-            metavar='NAME',
-            help='name of the simulator (default: %(default)s)',
-        )
-        self.add_argument(
-            '--timeout',
-            type=positive,
-            default=10.0,
-            metavar='S',
-            help='give up after so many seconds without a sign of it (default: %(default)g)',
-        )
+        add_simulator(self)
+        add_timeout(self)
 
     def _add_goals(self) -> None:
         add = self.add_argument_group('what the shot is to do').add_argument

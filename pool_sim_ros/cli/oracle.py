@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from pool_sim_ros.console import Parser, count
-from pool_sim_ros.ros import NODE_NAME, node_name, ros_command
+from pool_sim_ros.ros import add_simulator, ros_command
 
 if TYPE_CHECKING:
     from rclpy.context import Context
@@ -29,13 +29,7 @@ def _parser() -> argparse.ArgumentParser:
         epilog='\n'.join(epilog),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
-        '--node',
-        type=node_name,
-        default=NODE_NAME,
-        metavar='NAME',
-        help='name of the simulator (default: %(default)s)',
-    )
+    add_simulator(parser)
     parser.add_argument(
         '--threads',
         type=count,

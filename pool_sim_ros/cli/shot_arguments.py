@@ -7,8 +7,8 @@ import json
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from pool_sim_ros.console import CommandError, Parser, number, positive
-from pool_sim_ros.ros import NODE_NAME, node_name
+from pool_sim_ros.console import CommandError, Parser, number
+from pool_sim_ros.ros import add_simulator, add_timeout
 
 CUE_OPTIONS = ('elevation', 'side', 'above')
 """What may be said of a cue beside its speed and azimuth."""
@@ -58,20 +58,8 @@ class ShotParser(Parser):
             ('elevation', 'how steep it is, degrees'),
         ):
             self.add_argument(f'--{name}', type=number, metavar='X', help=f'with --cue: {words}')
-        self.add_argument(
-            '--node',
-            type=node_name,
-            default=NODE_NAME,
-            metavar='NAME',
-            help='name of the simulator (default: %(default)s)',
-        )
-        self.add_argument(
-            '--timeout',
-            type=positive,
-            default=10.0,
-            metavar='S',
-            help='give up after so many seconds without a sign of it (default: %(default)g)',
-        )
+        add_simulator(self)
+        add_timeout(self)
 
     def parse_args(  # type: ignore[override]
         self, args: Sequence[str] | None = None, namespace: None = None

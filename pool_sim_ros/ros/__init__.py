@@ -6,7 +6,7 @@ answers what-ifs and makes plans; `WhatIfClient` and `PlanClient` ask it from th
 and `OracleError` says why not. Users import these. The other names are for `cli` and `web_view`,
 which import this room; it imports neither.
 
-Nothing is loaded before it is asked for, so `ros_command` and `node_name` work without ROS.
+Nothing is loaded before it is asked for, so `ros_command` and `add_simulator` work without ROS.
 """
 
 from typing import TYPE_CHECKING
@@ -15,6 +15,7 @@ from pool_sim_ros.lazy import lazy_exports
 
 if TYPE_CHECKING:
     from pool_sim_ros.ros import interface, messages, oracle_interface
+    from pool_sim_ros.ros.arguments import add_simulator, add_timeout
     from pool_sim_ros.ros.client import ShotClient
     from pool_sim_ros.ros.command import ros_command
     from pool_sim_ros.ros.digest import digests
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.ros.inbox import Inbox
     from pool_sim_ros.ros.lasting_executor import LastingExecutor
     from pool_sim_ros.ros.mcap import write_bag
-    from pool_sim_ros.ros.names import NODE_NAME, ORACLE_NAME, node_name
+    from pool_sim_ros.ros.names import NODE_NAME, ORACLE_NAME
     from pool_sim_ros.ros.oracle_error import OracleError
     from pool_sim_ros.ros.oracle_node import OracleNode
     from pool_sim_ros.ros.plan_client import PlanClient
@@ -41,6 +42,8 @@ else:
         {
             'Inbox': 'inbox',
             'LastingExecutor': 'lasting_executor',
+            'add_simulator': 'arguments',
+            'add_timeout': 'arguments',
             'NODE_NAME': 'names',
             'ORACLE_NAME': 'names',
             'OracleError': 'oracle_error',
@@ -61,7 +64,6 @@ else:
             'interface': 'interface',
             'leave_at_once': 'process',
             'messages': 'messages',
-            'node_name': 'names',
             'oracle_interface': 'oracle_interface',
             'ros_command': 'command',
             'shut_down_on_signals': 'process',
@@ -86,13 +88,14 @@ __all__ = [
     'SimulatorView',
     'WhatIf',
     'WhatIfClient',
+    'add_simulator',
+    'add_timeout',
     'check_environment',
     'digests',
     'init_ros',
     'interface',
     'leave_at_once',
     'messages',
-    'node_name',
     'oracle_interface',
     'ros_command',
     'shut_down_on_signals',

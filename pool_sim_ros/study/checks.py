@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pool_sim_ros.physics import Table, check_layout
+
 
 def checked_actions(actions: Any, shape: tuple[int, ...] | None) -> NDArray[np.float64]:
     """Return actions as an array of this shape; raise ValueError where they are none."""
@@ -45,3 +47,22 @@ def counted(name: str, value: Any, least: int = 1) -> int:
     if given < least:
         raise ValueError(f'{name}: {value!r} must be a whole number, at least {least}')
     return given
+
+
+def checked_layouts(name: str, table: Table, given: Any, or_else: str = '') -> NDArray[np.float64]:
+    """Return layouts of a table, (k, n, 2) in m; raise ValueError where they are none.
+
+    A single one, (n, 2), is a row of one. `or_else` tells what else may be given.
+    """
+    n = len(table.balls)
+    try:
+        layouts = np.array(given, dtype=float)
+    except (TypeError, ValueError):
+        layouts = np.empty(0)
+    if layouts.shape == (n, 2):
+        layouts = layouts[np.newaxis]
+    if layouts.ndim != 3 or layouts.shape[1:] != (n, 2) or not len(layouts):
+        raise ValueError(f'{name}: must be {or_else}layouts of shape ({n}, 2) or (k, {n}, 2), in m')
+    for k, layout in enumerate(layouts):
+        check_layout(table, layout, f'{name}[{k}]')
+    return layouts

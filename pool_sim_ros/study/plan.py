@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics import Table, check_layout
-from pool_sim_ros.study.checks import counted
+from pool_sim_ros.physics import Table
+from pool_sim_ros.study.checks import checked_layouts, counted
 from pool_sim_ros.study.inputs import LAYOUT, Inputs, coefficients_of, rows_of
 from pool_sim_ros.study.ranges import Normal, Range, Uniform, is_random, row_of
 from pool_sim_ros.study.shot_random import normals, uniforms, words_of
@@ -195,7 +195,7 @@ def checked_plan(
         if name in inputs:
             _check_coefficient(table, name, inputs[name])
     chosen = table.labels if balls is None else tuple(balls)
-    layouts = None if positions is None else _layouts(table, positions)
+    layouts = None if positions is None else checked_layouts('positions', table, positions)
     kept = _kept(table, keep)
     row = sum(16 * len(chosen) * (name == 'finals') + 8 for name in kept)
     most = max(MOST_BYTES // row, 1)
@@ -212,21 +212,6 @@ def checked_plan(
     if not plan.shape:
         raise ValueError('velocity: nothing varies; give a row of values, as np.linspace makes')
     return plan
-
-
-def _layouts(table: Table, positions: Any) -> Floats:
-    n = len(table.balls)
-    try:
-        layouts = np.array(positions, dtype=float)
-    except (TypeError, ValueError):
-        layouts = np.empty(0)
-    if layouts.shape == (n, 2):
-        layouts = layouts[np.newaxis]
-    if layouts.ndim != 3 or layouts.shape[1:] != (n, 2) or not len(layouts):
-        raise ValueError(f'positions: must be layouts of shape ({n}, 2) or (k, {n}, 2), in m')
-    for k, layout in enumerate(layouts):
-        check_layout(table, layout, f'positions[{k}]')
-    return layouts
 
 
 def _check_coefficient(table: Table, name: str, given: Range) -> None:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pool_sim_ros.physics import Table, check_layout, simulate_many
+from pool_sim_ros.physics import Table, simulate_many
+from pool_sim_ros.study.checks import checked_layouts
 
 COUNT = 16384
 """Layouts that are drawn: too many to learn by heart, and drawn in a tenth of a second."""
@@ -38,17 +39,7 @@ def starts_of(table: Table, starts: int | ArrayLike) -> NDArray[np.float64]:
         if not 1 <= starts <= 10_000_000:
             raise ValueError(f'starts: {starts} must be 1 to 10,000,000 layouts, or an array')
         return drawn_starts(table, int(starts))
-    n = len(table.balls)
-    try:
-        layouts = np.array(starts, dtype=float)
-    except (TypeError, ValueError):
-        layouts = np.empty(0)
-    if layouts.shape == (n, 2):
-        layouts = layouts[np.newaxis]
-    if layouts.ndim != 3 or layouts.shape[1:] != (n, 2) or not len(layouts):
-        raise ValueError(f'starts: must be a whole number, or layouts of shape (k, {n}, 2)')
-    for k, layout in enumerate(layouts):
-        check_layout(table, layout, f'starts[{k}]')
+    layouts = checked_layouts('starts', table, starts, 'a whole number, or ')
     caught = _at_rest(table, layouts).pocketed[:, 0] >= 0
     if caught.any():
         raise ValueError(f'starts[{int(caught.argmax())}]: the cue ball lies in a pocket')

@@ -9,7 +9,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from pool_sim_ros.console import CommandError, Parser, port, require
-from pool_sim_ros.ros import NODE_NAME, node_name, ros_command
+from pool_sim_ros.ros import add_simulator, ros_command
 
 if TYPE_CHECKING:
     from rclpy.context import Context
@@ -38,13 +38,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar='N',
         help='port to listen at; 0 takes any that is free (default: %(default)s)',
     )
-    parser.add_argument(
-        '--node',
-        type=node_name,
-        default=NODE_NAME,
-        metavar='NAME',
-        help='name of the simulator (default: %(default)s)',
-    )
+    add_simulator(parser)
     return parser
 
 

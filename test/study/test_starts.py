@@ -53,7 +53,7 @@ def test_a_layout_of_ones_own_is_taken(report):
         (0, 'starts: 0 must be 1 to 10,000,000 layouts, or an array'),
         (-5, 'starts: -5 must be'),
         (True, 'starts: must be a whole number'),
-        ('many', 'starts: must be a whole number, or layouts of shape (k, 11, 2)'),
+        ('many', 'starts: must be a whole number, or layouts of shape (11, 2) or (k, 11, 2)'),
         (np.zeros((0, 11, 2)), 'starts: must be'),
         (np.zeros((2, 10, 2)), 'starts: must be'),
         (np.zeros((2, 11, 2)), "starts[0]: ball 'C'"),
