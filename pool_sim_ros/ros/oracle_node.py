@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import threading
 from typing import Any
 
 from rclpy.context import Context
@@ -66,7 +67,9 @@ class OracleNode(GuardedNode):
         self._threads = threads
         self._view = SimulatorView(self.context, simulator, 'oracle_view')
         self._table: Table | None = None
-        self._compiled = self._drawn = False
+        self._compiled = False
+        self._drawing = threading.Lock()
+        self._drawn: Lying | None = None
         self._answers = self._publisher(oracle_interface.WHAT_IF_RESPONSE)
         self._rejections = self._publisher(oracle_interface.WHAT_IF_REJECTED)
         self._plans = self._publisher(oracle_interface.PLAN_RESPONSE)
@@ -97,16 +100,19 @@ class OracleNode(GuardedNode):
         return self.create_publisher(topic.type, topic.private, topic.publisher_qos)
 
     def _look(self) -> None:
-        """Compile the engine of a new table; take down the markers once the balls move."""
+        """Compile the engine of a new table; take down the markers of how balls lay before."""
         table = self._view.table()
         if table is not None and table != self._table:
             self._table = table
             compile_kernels(table)
             self._compiled = True
             self.get_logger().info(f'ready: {self._view.simulator}, {len(table.balls)} balls')
-        if self._drawn and self._view.moves():
-            self._drawn = False
-            self._markers.publish(no_markers(self._view.frame_id))
+        drawn = self._drawn
+        if drawn is not None and self._view.has_changed(drawn):
+            with self._drawing:
+                if self._drawn is drawn:
+                    self._drawn = None
+                    self._markers.publish(no_markers(self._view.frame_id))
 
     def _on_what_if(self, message: bytes) -> None:
         stamp = read_stamp(message)
@@ -133,6 +139,8 @@ class OracleNode(GuardedNode):
             self._plans.publish(messages.to_string(text))
 
     def _draw(self, plan: Plan, lying: Lying) -> None:
-        if self.context.ok():
-            self._markers.publish(plan_markers(plan, lying, self._view.frame_id))
-            self._drawn = True
+        markers = plan_markers(plan, lying, self._view.frame_id)
+        with self._drawing:
+            if self.context.ok():
+                self._markers.publish(markers)
+                self._drawn = lying

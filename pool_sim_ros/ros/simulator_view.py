@@ -106,10 +106,17 @@ class SimulatorView:
             raise OracleError(OracleCode.MOVING, f'{doing}; ask again when all rest')
         return Lying(table, self._positions(table, state))
 
-    def moves(self) -> bool:
-        """Return whether a shot is in hand, as far as is known."""
-        self._look()
-        return self._state is not None and (self._state['moving'] or self._state['computing'])
+    def has_changed(self, lying: Lying) -> bool:
+        """Return whether the balls move, or lie otherwise, or on another table.
+
+        A shot may begin and end between two looks. Where nobody is heard, nothing is known to have
+        changed.
+        """
+        try:
+            table, positions = self.lying()
+        except OracleError as error:
+            return error.code == OracleCode.MOVING
+        return table != lying.table or not np.array_equal(positions, lying.positions)
 
     def close(self) -> None:
         """Leave ROS."""

@@ -111,7 +111,7 @@ def test_what_stands_before_the_arguments_for_ros():
 def test_the_room_itself_needs_no_ros():
     code = (
         'import sys\n'
-        'from pool_sim_ros.ros import NODE_NAME, node_name, ros_command\n'
+        'from pool_sim_ros.ros import NODE_NAME, add_simulator, ros_command\n'
         'sys.exit(" ".join({"rclpy", "numpy", "std_msgs"} & set(sys.modules)) or 0)'
     )
     done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=60)

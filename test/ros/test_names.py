@@ -5,8 +5,8 @@ import argparse
 import pytest
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
-from pool_sim_ros.ros import NODE_NAME, interface, node_name
-from pool_sim_ros.ros.names import LONGEST_NAME
+from pool_sim_ros.ros import NODE_NAME, interface
+from pool_sim_ros.ros.names import LONGEST_NAME, node_name
 
 
 @pytest.mark.parametrize('name', ['pool_sim', '/pool_sim', '/hall/left', 'hall/left_2', 'A1', '_a'])

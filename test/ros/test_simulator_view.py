@@ -1,5 +1,7 @@
 """Who looks at a simulator sees its table and its balls as they lie, or a reason why not."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from geometry_msgs.msg import Point, Pose, PoseArray
@@ -7,7 +9,7 @@ from waiting import wait_until
 
 from pool_sim_ros.physics import report_table
 from pool_sim_ros.ros import OracleError, interface, messages
-from pool_sim_ros.ros.simulator_view import SimulatorView
+from pool_sim_ros.ros.simulator_view import Lying, SimulatorView
 from pool_sim_ros.simulator import Phase, Response, table_to_json
 
 TABLE = report_table()
@@ -105,7 +107,8 @@ def wait_for_error(stub, words):
 def test_nobody_is_there(stub):
     with pytest.raises(OracleError, match='^NO_SIMULATOR: no simulator is heard as /stub;'):
         stub.lies()
-    assert stub.view.table() is None and stub.view.simulator == '/stub' and not stub.view.moves()
+    assert stub.view.table() is None and stub.view.simulator == '/stub'
+    assert not stub.view.has_changed(Lying(TABLE, TABLE.positions))
 
 
 def test_one_that_shows_no_balls_and_one_with_others(stub):
@@ -125,9 +128,24 @@ def test_the_latest_balls_at_rest_count(stub):
     assert stub.view.frame_id == 'hall' and stub.view.lying().table == TABLE
     stub.state(moving=True, tick=61)
     wait_for_error(stub, 'MOVING: the balls are moving')
-    assert stub.view.moves()
+    assert stub.view.has_changed(Lying(TABLE, moved(1.8)))
     stub.state(computing=True, tick=62)
     wait_for_error(stub, 'MOVING: a shot is being computed')
+
+
+def test_what_changed_between_two_looks_is_seen(stub):
+    stub.table()
+    stub.poses(1.0)
+    stub.state()
+    wait_for(stub, TABLE.positions)
+    assert not stub.view.has_changed(Lying(TABLE, TABLE.positions))
+    slow = dataclasses.replace(TABLE, mu_ball_surface=0.3)
+    assert stub.view.has_changed(Lying(slow, TABLE.positions))
+    stub.poses(2.0, moved(1.8))  # struck and at rest again
+    stub.state(tick=120, sim_time=2.0)
+    wait_for(stub, moved(1.8))
+    assert stub.view.has_changed(Lying(TABLE, TABLE.positions))
+    assert not stub.view.has_changed(Lying(TABLE, moved(1.8)))
 
 
 def test_a_layout_that_was_placed_counts_until_a_frame_shows_another(stub):
