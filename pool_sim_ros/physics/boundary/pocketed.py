@@ -2,7 +2,8 @@
 
 Most of a table is its inner rectangle: whatever bounds it is beyond the lines on which a ball
 touches the straight rails. While a ball stays there nothing else has to be looked at. The
-functions are the implementations of those in `seam`.
+functions are the implementations of those in `seam`; that of `time_to_cushions` has a module of
+its own.
 """
 
 from __future__ import annotations
@@ -12,12 +13,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pool_sim_ros.physics.boundary.mouths import crosses, faces, height_above, is_cut_off
-from pool_sim_ros.physics.boundary.rectangle import time_to_rectangle
-from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION, PHASE_END
-from pool_sim_ros.physics.capsule import Capsule, capsule_of, room_beside
-from pool_sim_ros.physics.contact_time import RelativeMotion, time_to_line, time_to_moving_ball
-from pool_sim_ros.physics.jit import inlined, kernel
+from pool_sim_ros.physics.boundary.first_touch import time_to_cushions as time_to_cushions
+from pool_sim_ros.physics.boundary.mouths import faces, height_above, is_cut_off
+from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION
+from pool_sim_ros.physics.boundary.surroundings import (
+    free_stretches,
+    has_inner_rectangle,
+    sides_of,
+    surroundings,
+)
+from pool_sim_ros.physics.jit import inlined
 from pool_sim_ros.physics.tolerances import TOUCHING
 
 
@@ -31,6 +36,9 @@ class PocketedBoundary(NamedTuple):
     pockets: NDArray[np.float64]  # (q, 3): centre and radius, m
     rails: NDArray[np.int64]  # (k,): the side of the rectangle on which a segment lies, or -1
     inner: float  # the balls' radius where they have an inner rectangle, m; inf where not
+    stretches: NDArray[np.float64]  # as `free_stretches` has them
+    around: NDArray[np.int64]  # as `surroundings` has them
+    within: NDArray[np.float64]
 
 
 def pocketed_boundary(
@@ -45,22 +53,18 @@ def pocketed_boundary(
     The other arguments are as `PocketedBoundary` has them; `size` is length and width.
     """
     length, width = size
-    rails = np.full(len(segments), -1)
-    sides = ((0, 0.0, 1.0), (0, length, -1.0), (1, 0.0, 1.0), (1, width, -1.0))
-    for side, (axis, at, inward) in enumerate(sides):
-        on = (segments[:, axis] == at) & (segments[:, 2 + axis] == at)
-        rails[on & (segments[:, 4 + axis] == inward)] = side
-    # Does a ball in the inner rectangle touch anything but a rail?
-    low, high = np.full(2, radius), np.array([length, width]) - radius
-    circles = [(x, y, r + radius) for x, y, r in noses] + [tuple(pocket) for pocket in pockets]
-    jaws = segments[rails < 0]
-    circles += [(x, y, radius) for x, y in np.concatenate([jaws[:, :2], jaws[:, 2:4]])]
-    free = all(
-        np.hypot(*(np.clip((x, y), low, high) - (x, y))) >= reach - TOUCHING
-        for x, y, reach in circles
-    ) and not crosses(jaws, low - radius, high + radius)
+    rails = sides_of(size, segments)
+    free = has_inner_rectangle(size, segments[rails < 0], noses, pockets, radius)
     return PocketedBoundary(
-        length, width, segments, noses, pockets, rails, radius if free else np.inf
+        length,
+        width,
+        segments,
+        noses,
+        pockets,
+        rails,
+        radius if free else np.inf,
+        free_stretches(size, segments, rails, noses, radius),
+        *surroundings(segments, noses, pockets, radius),
     )
 
 
@@ -91,83 +95,6 @@ def cushion_normal(
         distance = np.hypot(dx, dy)
         return dx / distance, dy / distance
     return 0.0 - boundary.segments[cushion, 4], 0.0 - boundary.segments[cushion, 5]
-
-
-@inlined
-def rail_at(boundary: Any, partner: int, x: float, y: float) -> int:
-    """Return the partner that is the rail before (x, y) on a rectangle's side; PHASE_END: none."""
-    side = FIRST_CUSHION - partner
-    for k in range(len(boundary.rails)):
-        if boundary.rails[k] == side and faces(boundary.segments[k], x, y):
-            return FIRST_CUSHION - k
-    return PHASE_END
-
-
-@inlined
-def is_inner(boundary: Any, x: float, y: float, radius: float) -> bool:
-    """Return whether a ball at (x, y) is in the inner rectangle, where it may touch the rails."""
-    least = radius - TOUCHING
-    return (
-        boundary.inner <= radius
-        and least <= x <= boundary.length - least
-        and least <= y <= boundary.width - least
-    )
-
-
-def time_to_cushions(boundary: PocketedBoundary, path: Any, radius: float) -> tuple[float, int]:
-    if is_inner(boundary, path.x, path.y, radius):
-        seconds, partner = time_to_rectangle(boundary, path, radius)
-        if partner == PHASE_END:
-            return seconds, partner
-        x = path.x + seconds * (path.vx + 0.5 * seconds * path.ax)
-        y = path.y + seconds * (path.vy + 0.5 * seconds * path.ay)
-        rail = rail_at(boundary, partner, x, y)
-        if rail != PHASE_END:
-            return seconds, rail
-    return time_to_anything(boundary, path, radius)
-
-
-@kernel
-def time_to_anything(boundary: Any, path: Any, radius: float) -> tuple[float, int]:
-    """Return as `time_to_cushions`, from a look at every cushion and pocket."""
-    segments, noses, pockets = boundary.segments, boundary.noses, boundary.pockets
-    best, partner = path.lasts, PHASE_END
-    for k in range(len(segments)):
-        nx, ny = segments[k, 4], segments[k, 5]
-        gap = height_above(segments[k], path.x, path.y) - radius
-        closing, pressing = -(path.vx * nx + path.vy * ny), -(path.ax * nx + path.ay * ny)
-        t = time_to_line(gap, closing, pressing, best)
-        if t < best:
-            x = path.x + t * (path.vx + 0.5 * t * path.ax)
-            y = path.y + t * (path.vy + 0.5 * t * path.ay)
-            if faces(segments[k], x, y):
-                best, partner = t, FIRST_CUSHION - k
-    capsule = capsule_of(path, best)
-    for k in range(len(noses)):
-        t = time_to_circle(path, capsule, noses[k], radius, best)
-        if t < best:
-            best, partner = t, FIRST_CUSHION - len(segments) - k
-    for k in range(len(pockets)):
-        t = time_to_circle(path, capsule, pockets[k], 0.0, best)
-        if t < best:
-            best, partner = t, FIRST_CUSHION - len(segments) - len(noses) - k
-    return (best if partner != PHASE_END else np.inf), partner
-
-
-@inlined
-def time_to_circle(
-    path: Any, capsule: Capsule, circle: NDArray[np.float64], radius: float, before: float
-) -> float:
-    """Return the seconds until a ball of `radius` touches a circle; inf if not `before`.
-
-    The capsule holds the path until then.
-    """
-    dx, dy = circle[0] - path.x, circle[1] - path.y
-    reach = circle[2] + radius
-    if room_beside(capsule, dx, dy, reach) > 0.0:
-        return np.inf
-    motion = RelativeMotion(dx, dy, -path.vx, -path.vy, -path.ax, -path.ay)
-    return time_to_moving_ball(motion, reach, before)
 
 
 def nose_radius(boundary: PocketedBoundary, cushion: int) -> float:
@@ -207,6 +134,10 @@ def pocket_of_partner(boundary: PocketedBoundary, partner: int) -> int:
 @inlined
 def pocket_around(boundary: Any, x: float, y: float) -> int:
     """Return the number of the pocket in whose circle (x, y) lies, -1 for none."""
+    # Where most balls lie: no pocket's circle reaches farther in.
+    least = boundary.inner + TOUCHING
+    if least < x < boundary.length - least and least < y < boundary.width - least:
+        return -1
     for k in range(len(boundary.pockets)):
         pocket = boundary.pockets[k]
         dx, dy = x - pocket[0], y - pocket[1]
@@ -250,6 +181,10 @@ def touches_cushion(boundary: PocketedBoundary, x: float, y: float, reach: float
         and reach < y < boundary.width - reach
     ):
         return False
+    if boundary.inner <= reach <= boundary.inner + TOUCHING and 0 <= but < len(boundary.segments):
+        stretch = boundary.stretches[but]
+        if stretch[0] <= x <= stretch[1] and stretch[2] <= y <= stretch[3]:
+            return False
     for k in range(len(boundary.segments)):
         segment = boundary.segments[k]
         if k != but and abs(height_above(segment, x, y)) <= reach and faces(segment, x, y):
@@ -266,10 +201,6 @@ def touches_cushion(boundary: PocketedBoundary, x: float, y: float, reach: float
 def is_outside(
     boundary: PocketedBoundary, x: float, y: float, radius: float, tolerance: float
 ) -> bool:
-    if pocket_around(boundary, x, y) >= 0:
-        return False
-    if not (abs(x) < np.inf and abs(y) < np.inf):
-        return True
     # Where most balls of a layout lie: nothing but the rails is near.
     if (
         (boundary.inner == radius)
@@ -278,6 +209,10 @@ def is_outside(
         & (tolerance >= TOUCHING)
     ):
         return False
+    if pocket_around(boundary, x, y) >= 0:
+        return False
+    if not (abs(x) < np.inf and abs(y) < np.inf):
+        return True
     least = radius - tolerance
     for k in range(len(boundary.segments)):
         segment = boundary.segments[k]

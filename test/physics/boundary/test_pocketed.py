@@ -194,11 +194,20 @@ def test_the_tables_have_an_inner_rectangle(name):
     assert np.sum(boundary.rails >= 0) == 6
 
 
+def looked_at_whole(boundary):
+    """Return a boundary of which every part is looked at every time."""
+    return boundary._replace(
+        inner=np.inf,
+        stretches=np.tile((np.inf, -np.inf, np.inf, -np.inf), (len(boundary.segments), 1)),
+        within=np.full(len(boundary.pockets), -1.0),
+    )
+
+
 @pytest.mark.parametrize('name', NAMES)
-def test_the_inner_rectangle_leaves_nothing_out(name):
-    """With it and without: the same answers."""
+def test_what_is_not_looked_at_is_never_met_first(name):
+    """With the inner rectangle and the surroundings of pockets, and without: the same answers."""
     boundary, radius = boundary_of(name)
-    without = boundary._replace(inner=np.inf)
+    without = looked_at_whole(boundary)
     met = np.zeros(3)
     for path in paths(np.random.default_rng(1), boundary, radius, 8000):
         seconds, partner = first_met(boundary, path, radius)
@@ -261,11 +270,72 @@ def test_places(name):
 
 
 @pytest.mark.parametrize('name', NAMES)
+def test_a_ball_on_a_rail_is_touched_by_the_same_things(name):
+    """All along each rail, and hairs beside the places where something else begins to touch."""
+    boundary, radius = boundary_of(name)
+    plain, reach = looked_at_whole(boundary), radius + 1e-9
+    rng = np.random.default_rng(8)
+    alone = told = 0
+    for k in np.flatnonzero(boundary.rails >= 0).tolist():
+        start, end, normal = np.split(boundary.segments[k], [2, 4])
+        shares = np.concatenate([rng.uniform(-0.1, 1.1, 300), [0.0, 1.0] * 50])
+        shares[300:] += rng.choice([0.0, 1e-9, 1e-6, 1e-3], 100) * rng.choice([-1.0, 1.0], 100)
+        for share in shares.tolist():
+            gap = rng.choice([-9e-10, 0.0, 9e-10])
+            spot = start + share * (end - start) + (radius + gap) * normal
+            found = asked(boundary, *spot, radius, reach, k)[1]
+            assert found == asked(plain, *spot, radius, reach, k)[1], (k, share)
+            told += found
+            box = boundary.stretches[k]
+            alone += bool(box[0] <= spot[0] <= box[1] and box[2] <= spot[1] <= box[3])
+    assert told > 50 and alone > 1000
+
+
+def test_a_rail_beside_which_something_stands_has_no_stretch_of_its_own():
+    given = pool_table_dimensions('7ft')
+    cushions, size = given.cushions, (given.length, given.width)
+    segments, pockets = np.array(cushions.segments), np.array(given.pockets)
+    boundary, radius = boundary_of('7ft')
+    rails = np.flatnonzero(boundary.rails >= 0)
+    assert np.isfinite(boundary.stretches[rails]).all()
+    assert np.isinf(boundary.stretches[boundary.rails < 0]).all()
+    k = rails[0]
+    middle = 0.5 * (segments[k, :2] + segments[k, 2:4])
+    post = np.append(middle, 0.0)  # flush with the rail: a ball there touches both
+    for more in (dict(noses=[post]), dict(segments=[segments[k]])):
+        changed = pocketed_boundary(
+            size,
+            np.vstack([segments, *more.get('segments', [])]),
+            np.vstack([cushions.noses, *more.get('noses', [])]),
+            pockets,
+            radius,
+        )
+        assert changed.inner == radius and np.isinf(changed.stretches[k]).all()
+        spot = middle + radius * segments[k, 4:]
+        assert asked(changed, *spot, radius, radius + 1e-9, k)[1]
+
+
+@pytest.mark.parametrize('name', NAMES)
+def test_around_a_pocket_is_all_that_is_near(name):
+    boundary, radius = boundary_of(name)
+    rng = np.random.default_rng(9)
+    for q, (x, y, _) in enumerate(boundary.pockets):
+        listed = set(boundary.around[q].tolist()) - {-1}
+        n = n_cushions(boundary)
+        assert n + q in listed and len(listed) < 12
+        angle, away = rng.uniform(0.0, 7.0, 4000), boundary.within[q] * rng.random(4000) ** 0.5
+        points = np.column_stack([x + away * np.cos(angle), y + away * np.sin(angle)])
+        gaps = all_gaps(boundary, points, radius)  # what is far behind a segment is not near it
+        met = np.flatnonzero(((gaps <= 0.0) & (gaps >= -2.0 * radius)).any(axis=0))
+        assert set(met.tolist()) <= listed and len(met) > 4
+
+
+@pytest.mark.parametrize('name', NAMES)
 def test_the_inner_rectangle_changes_nothing_of_what_is_outside(name):
     """Places all over the table, and hairs beside the lines where a ball touches a rail."""
     boundary, radius = boundary_of(name)
     assert boundary.inner == radius
-    plain = boundary._replace(inner=np.inf)
+    plain = looked_at_whole(boundary)
     rng = np.random.default_rng(7)
     spots = rng.uniform(-0.05, (boundary.length + 0.05, boundary.width + 0.05), (4000, 2))
     at = np.array([radius, boundary.length - radius]), np.array([radius, boundary.width - radius])
