@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.boundary.mouths import faces, height_above
 from pool_sim_ros.physics.boundary.rectangle import time_to_rectangle
 from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION, PHASE_END
+from pool_sim_ros.physics.boundary.surroundings import AROUND, SIDE, WITHIN
 from pool_sim_ros.physics.capsule import Capsule, capsule_of, room_beside
 from pool_sim_ros.physics.contact_time import RelativeMotion, time_to_line, time_to_moving_ball
 from pool_sim_ros.physics.jit import inlined, kernel
@@ -24,8 +25,8 @@ from pool_sim_ros.physics.tolerances import TOUCHING
 def rail_at(boundary: Any, partner: int, x: float, y: float) -> int:
     """Return the partner that is the rail before (x, y) on a rectangle's side; PHASE_END: none."""
     side = FIRST_CUSHION - partner
-    for k in range(len(boundary.rails)):
-        if boundary.rails[k] == side and faces(boundary.segments[k], x, y):
+    for k in range(boundary.n_segments):
+        if boundary.parts[k, SIDE] == side and faces(boundary.parts[k], x, y):
             return FIRST_CUSHION - k
     return PHASE_END
 
@@ -67,12 +68,12 @@ def time_outside(boundary: Any, path: Any, radius: float, leaves: float) -> tupl
     Most end in the mouth of the nearest pocket. What is not around it cannot be touched before the
     path is farther from it.
     """
-    if len(boundary.pockets) > 0:
+    if len(boundary.parts) > boundary.n_cushions:
         x, y = place_on(path, leaves)
-        q, distance = nearest_pocket(boundary, x, y)
-        best, partner = first_around(boundary, path, radius, q)
+        pocket, distance = nearest_pocket(boundary, x, y)
+        best, partner = first_around(boundary, path, radius, pocket)
         way = max(best - leaves, 0.0) * max(speed_on(path, leaves), speed_on(path, best))
-        if partner != PHASE_END and distance + way <= boundary.within[q]:
+        if partner != PHASE_END and distance + way <= pocket[WITHIN]:
             return best, partner
     return time_to_anything(boundary, path, radius)
 
@@ -85,51 +86,60 @@ def speed_on(path: Any, t: float) -> float:
 
 
 @inlined
-def nearest_pocket(boundary: Any, x: float, y: float) -> tuple[int, float]:
+def nearest_pocket(boundary: Any, x: float, y: float) -> tuple[NDArray[np.float64], float]:
     """Return the pocket whose centre is nearest to (x, y), and how far away that is, m."""
-    nearest, squared = 0, np.inf
-    for q in range(len(boundary.pockets)):
-        dx, dy = x - boundary.pockets[q, 0], y - boundary.pockets[q, 1]
+    nearest, squared = boundary.n_cushions, np.inf
+    for k in range(boundary.n_cushions, len(boundary.parts)):
+        dx, dy = x - boundary.parts[k, 0], y - boundary.parts[k, 1]
         if dx * dx + dy * dy < squared:
-            nearest, squared = q, dx * dx + dy * dy
-    return nearest, np.sqrt(squared)
+            nearest, squared = k, dx * dx + dy * dy
+    return boundary.parts[nearest], np.sqrt(squared)
 
 
 @inlined
-def first_around(boundary: Any, path: Any, radius: float, pocket: int) -> tuple[float, int]:
+def first_around(
+    boundary: Any, path: Any, radius: float, pocket: NDArray[np.float64]
+) -> tuple[float, int]:
     """Return as `time_to_anything`, from a look at what is around a pocket."""
-    numbers = boundary.around[pocket]
     best, partner = path.lasts, PHASE_END
-    for m in range(len(numbers)):
-        if 0 <= numbers[m] < len(boundary.segments):
-            t = time_to_segment(boundary.segments[numbers[m]], path, radius, best)
-            if t < best:
-                best, partner = t, FIRST_CUSHION - numbers[m]
     capsule = capsule_of(path, best)
-    for m in range(len(numbers)):
-        k = numbers[m] - len(boundary.segments)
-        if k >= 0:
-            t = time_to_round(boundary, k, path, capsule, radius, best)
-            if t < best:
-                best, partner = t, FIRST_CUSHION - numbers[m]
+    rounds = False
+    for m in range(AROUND, len(pocket)):
+        k = int(pocket[m])
+        if k < 0:
+            break
+        if k >= boundary.n_segments and not rounds:
+            # The numbers rise: all segments were before this one.
+            rounds, capsule = True, capsule_of(path, best)
+        t = time_to_part(boundary, k, path, capsule, radius, best)
+        if t < best:
+            best, partner = t, FIRST_CUSHION - k
     return best, partner
 
 
 @kernel
 def time_to_anything(boundary: Any, path: Any, radius: float) -> tuple[float, int]:
     """Return as `time_to_cushions`, from a look at every cushion and pocket."""
-    n = len(boundary.segments)
     best, partner = path.lasts, PHASE_END
-    for k in range(n):
-        t = time_to_segment(boundary.segments[k], path, radius, best)
+    capsule = capsule_of(path, best)
+    for k in range(len(boundary.parts)):
+        if k == boundary.n_segments:
+            capsule = capsule_of(path, best)
+        t = time_to_part(boundary, k, path, capsule, radius, best)
         if t < best:
             best, partner = t, FIRST_CUSHION - k
-    capsule = capsule_of(path, best)
-    for k in range(len(boundary.noses) + len(boundary.pockets)):
-        t = time_to_round(boundary, k, path, capsule, radius, best)
-        if t < best:
-            best, partner = t, FIRST_CUSHION - n - k
     return (best if partner != PHASE_END else np.inf), partner
+
+
+@inlined
+def time_to_part(
+    boundary: Any, k: int, path: Any, capsule: Capsule, radius: float, before: float
+) -> float:
+    """Return the seconds until a ball of `radius` touches part `k`; inf if not `before`."""
+    part = boundary.parts[k]
+    if k < boundary.n_segments:
+        return time_to_segment(part, path, radius, before)
+    return time_to_circle(path, capsule, part, radius if k < boundary.n_cushions else 0.0, before)
 
 
 @inlined
@@ -144,17 +154,6 @@ def time_to_segment(segment: NDArray[np.float64], path: Any, radius: float, befo
         if faces(segment, x, y):
             return t
     return np.inf
-
-
-@inlined
-def time_to_round(
-    boundary: Any, k: int, path: Any, capsule: Capsule, radius: float, before: float
-) -> float:
-    """Return as `time_to_circle` for what has number `k` among the noses and pockets."""
-    if k < len(boundary.noses):
-        return time_to_circle(path, capsule, boundary.noses[k], radius, before)
-    pocket = boundary.pockets[k - len(boundary.noses)]
-    return time_to_circle(path, capsule, pocket, 0.0, before)
 
 
 @inlined

@@ -16,29 +16,42 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.boundary.first_touch import time_to_cushions as time_to_cushions
 from pool_sim_ros.physics.boundary.mouths import faces, height_above, is_cut_off
 from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION
-from pool_sim_ros.physics.boundary.surroundings import (
-    free_stretches,
-    has_inner_rectangle,
-    sides_of,
-    surroundings,
-)
+from pool_sim_ros.physics.boundary.surroundings import SIDE, STRETCH, parts_of
 from pool_sim_ros.physics.jit import inlined
 from pool_sim_ros.physics.tolerances import TOUCHING
 
 
 class PocketedBoundary(NamedTuple):
-    """Cushions and pockets; the numbers of cushions are those of the segments, then the noses."""
+    """Cushions and pockets.
+
+    They are the rows of one array, since each array costs nine arguments wherever a kernel calls
+    another: first the segments, then the noses, then the pockets. The number of a cushion is that
+    of its row.
+    """
 
     length: float  # of the rectangle on which the rails lie, m
     width: float
-    segments: NDArray[np.float64]  # (k, 6): x0, y0, x1, y1, and the unit normal into the table
-    noses: NDArray[np.float64]  # (p, 3): centre and radius, m
-    pockets: NDArray[np.float64]  # (q, 3): centre and radius, m
-    rails: NDArray[np.int64]  # (k,): the side of the rectangle on which a segment lies, or -1
     inner: float  # the balls' radius where they have an inner rectangle, m; inf where not
-    stretches: NDArray[np.float64]  # as `free_stretches` has them
-    around: NDArray[np.int64]  # as `surroundings` has them
-    within: NDArray[np.float64]
+    n_segments: int
+    n_cushions: int  # segments and noses
+    # A segment: x0, y0, x1, y1, and the unit normal into the table; a circle: centre and radius, m;
+    # then what `surroundings` has names for.
+    parts: NDArray[np.float64]
+
+    @property
+    def segments(self) -> NDArray[np.float64]:
+        """Ends and normals of the straight cushions, (k, 6)."""
+        return self.parts[: self.n_segments, :SIDE]
+
+    @property
+    def noses(self) -> NDArray[np.float64]:
+        """Centres and radii of the round noses, (p, 3), m."""
+        return self.parts[self.n_segments : self.n_cushions, :3]
+
+    @property
+    def pockets(self) -> NDArray[np.float64]:
+        """Centres and radii of the pockets, (q, 3), m."""
+        return self.parts[self.n_cushions :, :3]
 
 
 def pocketed_boundary(
@@ -52,62 +65,47 @@ def pocketed_boundary(
 
     The other arguments are as `PocketedBoundary` has them; `size` is length and width.
     """
-    length, width = size
-    rails = sides_of(size, segments)
-    free = has_inner_rectangle(size, segments[rails < 0], noses, pockets, radius)
-    return PocketedBoundary(
-        length,
-        width,
-        segments,
-        noses,
-        pockets,
-        rails,
-        radius if free else np.inf,
-        free_stretches(size, segments, rails, noses, radius),
-        *surroundings(segments, noses, pockets, radius),
-    )
+    parts, free = parts_of(size, segments, noses, pockets, radius)
+    n, m = len(segments), len(segments) + len(noses)
+    return PocketedBoundary(*size, radius if free else np.inf, n, m, parts)
 
 
 def n_cushions(boundary: PocketedBoundary) -> int:
-    return len(boundary.segments) + len(boundary.noses)
+    return boundary.n_cushions
 
 
 def cushion_gap(
     boundary: PocketedBoundary, cushion: int, x: float, y: float, radius: float
 ) -> float:
-    k = len(boundary.segments)
-    if cushion >= k:
-        nose = boundary.noses[cushion - k]
-        return np.hypot(x - nose[0], y - nose[1]) - nose[2] - radius
-    segment = boundary.segments[cushion]
-    height = height_above(segment, x, y)
+    part = boundary.parts[cushion]
+    if cushion >= boundary.n_segments:
+        return np.hypot(x - part[0], y - part[1]) - part[2] - radius
+    height = height_above(part, x, y)
     # What is far behind it is before another cushion.
-    return height - radius if height > -radius and faces(segment, x, y) else np.inf
+    return height - radius if height > -radius and faces(part, x, y) else np.inf
 
 
 def cushion_normal(
     boundary: PocketedBoundary, cushion: int, x: float, y: float
 ) -> tuple[float, float]:
-    k = len(boundary.segments)
-    if cushion >= k:
-        nose = boundary.noses[cushion - k]
-        dx, dy = nose[0] - x, nose[1] - y
+    part = boundary.parts[cushion]
+    if cushion >= boundary.n_segments:
+        dx, dy = part[0] - x, part[1] - y
         distance = np.hypot(dx, dy)
         return dx / distance, dy / distance
-    return 0.0 - boundary.segments[cushion, 4], 0.0 - boundary.segments[cushion, 5]
+    return 0.0 - part[4], 0.0 - part[5]
 
 
 def nose_radius(boundary: PocketedBoundary, cushion: int) -> float:
-    k = len(boundary.segments)
-    return boundary.noses[cushion - k, 2] if cushion >= k else 0.0
+    return boundary.parts[cushion, 2] if cushion >= boundary.n_segments else 0.0
 
 
 def put_on_cushion(
     boundary: PocketedBoundary, cushion: int, x: float, y: float, radius: float
 ) -> tuple[float, float]:
-    if cushion >= len(boundary.segments):
+    if cushion >= boundary.n_segments:
         return x, y
-    segment = boundary.segments[cushion]
+    segment = boundary.parts[cushion]
     # Along an axis exactly: a ball on a rail then stays on it.
     if segment[4] == 0.0:
         return x, segment[1] + segment[5] * radius
@@ -120,7 +118,7 @@ def put_on_cushion(
 @inlined
 def pocket_number(boundary: Any, partner: int) -> int:
     """Return the number of the pocket that a partner names; negative for a cushion."""
-    return FIRST_CUSHION - partner - len(boundary.segments) - len(boundary.noses)
+    return FIRST_CUSHION - partner - boundary.n_cushions
 
 
 def is_pocket(boundary: PocketedBoundary, partner: int) -> bool:
@@ -138,11 +136,11 @@ def pocket_around(boundary: Any, x: float, y: float) -> int:
     least = boundary.inner + TOUCHING
     if least < x < boundary.length - least and least < y < boundary.width - least:
         return -1
-    for k in range(len(boundary.pockets)):
-        pocket = boundary.pockets[k]
+    for k in range(boundary.n_cushions, len(boundary.parts)):
+        pocket = boundary.parts[k]
         dx, dy = x - pocket[0], y - pocket[1]
         if dx * dx + dy * dy < pocket[2] * pocket[2]:
-            return k
+            return k - boundary.n_cushions
     return -1
 
 
@@ -151,13 +149,14 @@ def pocket_at(boundary: PocketedBoundary, x: float, y: float) -> int:
 
 
 def pocket_centre(boundary: PocketedBoundary, pocket: int) -> tuple[float, float]:
-    return boundary.pockets[pocket, 0], boundary.pockets[pocket, 1]
+    part = boundary.parts[boundary.n_cushions + pocket]
+    return part[0], part[1]
 
 
 def distance_to_mouths(boundary: PocketedBoundary, x: float, y: float) -> float:
     least = min(min(x, boundary.length - x), min(y, boundary.width - y))
-    for k in range(len(boundary.pockets)):
-        pocket = boundary.pockets[k]
+    for k in range(boundary.n_cushions, len(boundary.parts)):
+        pocket = boundary.parts[k]
         least = min(least, np.hypot(x - pocket[0], y - pocket[1]) - pocket[2])
     return least
 
@@ -181,19 +180,19 @@ def touches_cushion(boundary: PocketedBoundary, x: float, y: float, reach: float
         and reach < y < boundary.width - reach
     ):
         return False
-    if boundary.inner <= reach <= boundary.inner + TOUCHING and 0 <= but < len(boundary.segments):
-        stretch = boundary.stretches[but]
+    if boundary.inner <= reach <= boundary.inner + TOUCHING and 0 <= but < boundary.n_segments:
+        stretch = boundary.parts[but, STRETCH:]
         if stretch[0] <= x <= stretch[1] and stretch[2] <= y <= stretch[3]:
             return False
-    for k in range(len(boundary.segments)):
-        segment = boundary.segments[k]
+    for k in range(boundary.n_segments):
+        segment = boundary.parts[k]
         if k != but and abs(height_above(segment, x, y)) <= reach and faces(segment, x, y):
             return True
-    for k in range(len(boundary.noses)):
-        nose = boundary.noses[k]
+    for k in range(boundary.n_segments, boundary.n_cushions):
+        nose = boundary.parts[k]
         near = reach + nose[2]
         dx, dy = x - nose[0], y - nose[1]
-        if k + len(boundary.segments) != but and dx * dx + dy * dy <= near * near:
+        if k != but and dx * dx + dy * dy <= near * near:
             return True
     return False
 
@@ -214,12 +213,12 @@ def is_outside(
     if not (abs(x) < np.inf and abs(y) < np.inf):
         return True
     least = radius - tolerance
-    for k in range(len(boundary.segments)):
-        segment = boundary.segments[k]
+    for k in range(boundary.n_segments):
+        segment = boundary.parts[k]
         if faces(segment, x, y) and abs(height_above(segment, x, y)) < least:
             return True
-    for k in range(len(boundary.noses)):
-        nose = boundary.noses[k]
+    for k in range(boundary.n_segments, boundary.n_cushions):
+        nose = boundary.parts[k]
         if np.hypot(x - nose[0], y - nose[1]) < nose[2] + least:
             return True
     if 0.0 <= x <= boundary.length and 0.0 <= y <= boundary.width:

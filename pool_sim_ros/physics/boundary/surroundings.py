@@ -14,8 +14,35 @@ from pool_sim_ros.physics.tolerances import TOUCHING
 Array = NDArray[np.float64]
 Size = tuple[float, float]
 
+SIDE, STRETCH = 6, 7
+"""Columns of a segment in `PocketedBoundary.parts`: its side, or -1; four of its stretch."""
+
+WITHIN, AROUND = 6, 7
+"""Columns of a pocket there: see `surroundings`; the numbers around it are the last ones."""
+
 MARGIN = 2.0 * TOUCHING
 """What is farther away than this, m, is not touched whatever rounding does."""
+
+
+def parts_of(
+    size: Size, segments: Array, noses: Array, pockets: Array, radius: float
+) -> tuple[Array, bool]:
+    """Return `PocketedBoundary.parts`, and whether there is an inner rectangle."""
+    rails = sides_of(size, segments)
+    free = has_inner_rectangle(size, segments[rails < 0], noses, pockets, radius)
+    around, within = surroundings(segments, noses, pockets, radius)
+    columns = max(STRETCH + 4, AROUND + around.shape[1])
+    parts = np.full((len(segments) + len(noses) + len(pockets), columns), -1.0)
+    rest = parts[len(segments) :]
+    parts[: len(segments), :SIDE] = segments
+    parts[: len(segments), SIDE] = rails
+    stretches = free_stretches(size, segments, rails, noses, radius)
+    parts[: len(segments), STRETCH : STRETCH + 4] = stretches
+    rest[: len(noses), :3] = noses
+    rest[len(noses) :, :3] = pockets
+    rest[len(noses) :, WITHIN] = within
+    rest[len(noses) :, AROUND : AROUND + around.shape[1]] = around
+    return parts, free
 
 
 def sides_of(size: Size, segments: Array) -> NDArray[np.int64]:
@@ -86,7 +113,7 @@ def surroundings(
     Returns
     -------
     around : ndarray of shape (q, m)
-        Numbers of segments, then of noses, then of pockets, counted on; -1 where there are fewer.
+        Numbers of parts; -1 where there are fewer.
     within : ndarray of shape (q,)
         A ball whose centre is not farther than this from that of the pocket touches nothing else.
     """

@@ -27,6 +27,7 @@ from pool_sim_ros.physics.boundary import (
     to_cushion_axes,
     touches_cushion,
 )
+from pool_sim_ros.physics.boundary.surroundings import AROUND, SIDE, STRETCH, WITHIN
 from pool_sim_ros.physics.motion.curved_path import CurvedPath
 from pool_sim_ros.physics.pool_tables import pool_table_dimensions
 
@@ -190,17 +191,26 @@ def paths(rng, boundary, radius, count):
 def test_the_tables_have_an_inner_rectangle(name):
     boundary, radius = boundary_of(name)
     assert boundary.inner == radius
-    assert sorted(set(boundary.rails.tolist())) == [-1, 0, 1, 2, 3]
-    assert np.sum(boundary.rails >= 0) == 6
+    assert sorted(set(sides(boundary).tolist())) == [-1, 0, 1, 2, 3]
+    assert np.sum(sides(boundary) >= 0) == 6
 
 
 def looked_at_whole(boundary):
     """Return a boundary of which every part is looked at every time."""
-    return boundary._replace(
-        inner=np.inf,
-        stretches=np.tile((np.inf, -np.inf, np.inf, -np.inf), (len(boundary.segments), 1)),
-        within=np.full(len(boundary.pockets), -1.0),
-    )
+    parts = boundary.parts.copy()
+    parts[: boundary.n_segments, STRETCH : STRETCH + 4] = np.inf, -np.inf, np.inf, -np.inf
+    parts[boundary.n_cushions :, WITHIN] = -1.0
+    return boundary._replace(inner=np.inf, parts=parts)
+
+
+def sides(boundary):
+    """Return the sides on which the segments lie, -1 for a jaw."""
+    return boundary.parts[: boundary.n_segments, SIDE]
+
+
+def stretches(boundary):
+    """Return the boxes in which a ball on a rail touches nothing else."""
+    return boundary.parts[: boundary.n_segments, STRETCH : STRETCH + 4]
 
 
 @pytest.mark.parametrize('name', NAMES)
@@ -276,7 +286,7 @@ def test_a_ball_on_a_rail_is_touched_by_the_same_things(name):
     plain, reach = looked_at_whole(boundary), radius + 1e-9
     rng = np.random.default_rng(8)
     alone = told = 0
-    for k in np.flatnonzero(boundary.rails >= 0).tolist():
+    for k in np.flatnonzero(sides(boundary) >= 0).tolist():
         start, end, normal = np.split(boundary.segments[k], [2, 4])
         shares = np.concatenate([rng.uniform(-0.1, 1.1, 300), [0.0, 1.0] * 50])
         shares[300:] += rng.choice([0.0, 1e-9, 1e-6, 1e-3], 100) * rng.choice([-1.0, 1.0], 100)
@@ -286,7 +296,7 @@ def test_a_ball_on_a_rail_is_touched_by_the_same_things(name):
             found = asked(boundary, *spot, radius, reach, k)[1]
             assert found == asked(plain, *spot, radius, reach, k)[1], (k, share)
             told += found
-            box = boundary.stretches[k]
+            box = stretches(boundary)[k]
             alone += bool(box[0] <= spot[0] <= box[1] and box[2] <= spot[1] <= box[3])
     assert told > 50 and alone > 1000
 
@@ -296,9 +306,9 @@ def test_a_rail_beside_which_something_stands_has_no_stretch_of_its_own():
     cushions, size = given.cushions, (given.length, given.width)
     segments, pockets = np.array(cushions.segments), np.array(given.pockets)
     boundary, radius = boundary_of('7ft')
-    rails = np.flatnonzero(boundary.rails >= 0)
-    assert np.isfinite(boundary.stretches[rails]).all()
-    assert np.isinf(boundary.stretches[boundary.rails < 0]).all()
+    rails = np.flatnonzero(sides(boundary) >= 0)
+    assert np.isfinite(stretches(boundary)[rails]).all()
+    assert np.isinf(stretches(boundary)[sides(boundary) < 0]).all()
     k = rails[0]
     middle = 0.5 * (segments[k, :2] + segments[k, 2:4])
     post = np.append(middle, 0.0)  # flush with the rail: a ball there touches both
@@ -310,7 +320,7 @@ def test_a_rail_beside_which_something_stands_has_no_stretch_of_its_own():
             pockets,
             radius,
         )
-        assert changed.inner == radius and np.isinf(changed.stretches[k]).all()
+        assert changed.inner == radius and np.isinf(stretches(changed)[k]).all()
         spot = middle + radius * segments[k, 4:]
         assert asked(changed, *spot, radius, radius + 1e-9, k)[1]
 
@@ -320,10 +330,11 @@ def test_around_a_pocket_is_all_that_is_near(name):
     boundary, radius = boundary_of(name)
     rng = np.random.default_rng(9)
     for q, (x, y, _) in enumerate(boundary.pockets):
-        listed = set(boundary.around[q].tolist()) - {-1}
+        pocket = boundary.parts[boundary.n_cushions + q]
+        listed = set(pocket[AROUND:].tolist()) - {-1}
         n = n_cushions(boundary)
         assert n + q in listed and len(listed) < 12
-        angle, away = rng.uniform(0.0, 7.0, 4000), boundary.within[q] * rng.random(4000) ** 0.5
+        angle, away = rng.uniform(0.0, 7.0, 4000), pocket[WITHIN] * rng.random(4000) ** 0.5
         points = np.column_stack([x + away * np.cos(angle), y + away * np.sin(angle)])
         gaps = all_gaps(boundary, points, radius)  # what is far behind a segment is not near it
         met = np.flatnonzero(((gaps <= 0.0) & (gaps >= -2.0 * radius)).any(axis=0))
