@@ -6,8 +6,12 @@ import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 
-CHUNK = 4096
-"""Shots that one thread takes at a time: long beside handing them out, short beside a million."""
+CHUNK, LEAST_CHUNK = 4096, 512
+"""Most and fewest shots that a thread takes at a time: long beside handing them out, short beside a
+million."""
+
+CHUNKS_A_THREAD = 8
+"""Parts for each thread where there are enough shots: the last ones must not wait long for one."""
 
 
 def available_cores() -> int:
@@ -35,9 +39,11 @@ def share_out(
     threads : int or None
         At most so many; None: one for each core.
     """
-    parts = [slice(first, min(first + CHUNK, shots)) for first in range(0, shots, CHUNK)]
+    threads = threads or available_cores()
+    size = min(max(shots // (CHUNKS_A_THREAD * threads), LEAST_CHUNK), CHUNK)
+    parts = [slice(first, min(first + size, shots)) for first in range(0, shots, size)]
     left = iter(parts)
-    helpers = min(threads or available_cores(), len(parts)) - 1
+    helpers = min(threads, len(parts)) - 1
     if helpers < 1:
         play(left, False)
         return

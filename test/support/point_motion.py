@@ -165,6 +165,10 @@ def _keep_path(ball, table, rows, i):
     pass
 
 
+def _touched_in_rows(table, rows, place, near, pair, now):
+    return False, False
+
+
 def _sift(path, table, radius, times, rows):
     return False
 
@@ -208,6 +212,7 @@ IMPLEMENTATIONS = {
     seam.has_phases: _has_phases,
     seam.keep_path: _keep_path,
     seam.sift: _sift,
+    seam.touched_in_rows: _touched_in_rows,
     seam.rest_begins: _rest_begins,
     seam.give_spin: _give_spin,
     seam.log_spin: _log_spin,

@@ -17,23 +17,32 @@ from pool_sim_ros.physics.motion import N_ROWS, RESTS
 X, Y, RADIUS, DISTANCE = 0, 1, 2, 3
 """Rows of `FewBalls.rows`."""
 
+LANES = 8
+"""There are a multiple of so many columns: what vector instructions leave over costs most."""
+
+FAR = 1e30
+"""Where a column without a ball says that it rests, m: nothing comes there."""
+
 
 class FewBalls(NamedTuple):
-    """The balls of a table with few of them, n; on a table with many there are no columns.
+    """The balls of a table with few of them; on a table with many there are no columns.
 
     It has few arrays, since each costs seven arguments wherever a kernel calls another.
     """
 
-    # (N_ROWS, n): where a ball rests, NaN while it moves; radius; room, m; then how it moves.
+    # (N_ROWS, n or some more): where a ball rests, NaN while it moves; radius; room, m; then how it
+    # moves.
     rows: NDArray[np.float64]
     moving: NDArray[np.int64]  # (n + 1,): the numbers of those that move, in order; their count
 
 
 def new_few_balls(balls: NDArray[np.void], wanted: bool) -> FewBalls:
     """Return it for balls that all rest; without columns, only with room, unless `wanted`."""
-    rows = np.empty((N_ROWS, len(balls) if wanted else 0))
+    n = len(balls)
+    rows = np.zeros((N_ROWS, -(-n // LANES) * LANES if wanted else 0))
     if wanted:
-        rows[X], rows[Y], rows[RADIUS] = balls['x'], balls['y'], balls['radius']
+        rows[X, n:] = FAR
+        rows[X, :n], rows[Y, :n], rows[RADIUS, :n] = balls['x'], balls['y'], balls['radius']
     return FewBalls(rows, np.zeros(len(balls) + 1, np.int64))
 
 

@@ -49,7 +49,7 @@ def any_outside(state: State) -> bool:
 @kernel
 def few_overlap(state: State) -> bool:
     """Return whether any two balls overlap by more than OVERLAP, on a table with few."""
-    rows, widest = state.grid.few.rows, state.grid.widest
+    rows, widest = state.grid.few.rows[:, : len(state.balls)], state.grid.widest
     # As if all were as wide as the widest: fewer numbers, and hardly ever are two so near.
     return any_nearer(rows, widest * widest) and any_overlap(rows)
 

@@ -207,10 +207,14 @@ def lay_down(state: State, j: int, now: float) -> None:
     other = balls[j]
     take_out(state, j)
     others, count = all_moving(balls, grid, j)
+    sifted = has_few(grid) and count >= SIFTED
+    if sifted:
+        here = path_from(other, table, now)
+        sifted = sift(here, table, other.radius, (now, np.inf), grid.few.rows)
     for m in range(count):
         i = others[m]
         ball = balls[i]
-        if ball.phase == RESTS:
+        if ball.phase == RESTS or (sifted and grid.few.rows[DISTANCE, i] == 0.0):
             continue
         path = path_from(ball, table, now)
         touch = ball.radius + other.radius

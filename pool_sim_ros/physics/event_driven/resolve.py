@@ -34,6 +34,7 @@ from pool_sim_ros.physics.motion import (
     position_at,
     set_off,
     shown_at,
+    touched_in_rows,
     velocity_at,
 )
 from pool_sim_ros.physics.tolerances import (
@@ -91,8 +92,12 @@ def is_touched(state: State, i: int, but: int, now: float) -> bool:
     cushion = cushion_of_partner(but)
     if ball.phase != RESTS and touches_cushion(table.boundary, x, y, near, cushion):
         return True
-    if has_few(grid) and touches_resting(grid.few, x, y, near, i, but):
-        return True
+    if has_few(grid):
+        told, touched = touched_in_rows(table, grid.few.rows, (x, y), near, (i, but), now)
+        if told:
+            return touched
+        if touches_resting(grid.few, x, y, near, i, but):
+            return True
     others, count = all_moving(balls, grid, i)
     # Ball `i` itself and `but` are as close as that every time: no branch for them in the loop.
     found = 0

@@ -38,6 +38,7 @@ from pool_sim_ros.physics.motion.seam import (
     time_to_boundary,
     time_to_cell_edge,
     time_to_resting_ball,
+    touched_in_rows,
     velocity_at,
 )
 
@@ -80,6 +81,7 @@ __all__ = [
     'time_to_boundary',
     'time_to_cell_edge',
     'time_to_resting_ball',
+    'touched_in_rows',
     'velocity_at',
 ]
 
@@ -97,6 +99,7 @@ CHOICES = (
     'first_resting_ball',
     'first_resting_of',
     'time_to_resting_ball',
+    'touched_in_rows',
     'relative_motion',
     'advance',
     'has_phases',

@@ -25,6 +25,7 @@ from pool_sim_ros.physics.motion.curved_path import (
     time_to_place,
 )
 from pool_sim_ros.physics.motion.moving_balls import keep_in_rows, mark_those_near
+from pool_sim_ros.physics.motion.moving_balls import touched_in_rows as touched_in_rows
 from pool_sim_ros.physics.motion.phase import RESTS, ROLLS, SLIDES
 from pool_sim_ros.physics.motion.straight_path import (
     distance_covered,

@@ -227,6 +227,17 @@ def sift(
     return False
 
 
+def touched_in_rows(
+    table: DiscTable,
+    rows: NDArray[np.float64],
+    place: tuple[float, float],
+    near: float,
+    pair: tuple[int, int],
+    now: float,
+) -> tuple[bool, bool]:
+    return False, False
+
+
 def rest_begins(ball: Record, table: DiscTable) -> float:
     """Return when a disc came to rest, s: it does not spin."""
     return ball.since

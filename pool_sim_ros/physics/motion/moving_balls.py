@@ -1,4 +1,4 @@
-"""Balls that move, side by side in memory: which of them may a path meet?
+"""Balls that move, side by side in memory: which of them may a path meet, or does a ball touch?
 
 The rows are those of `event_driven.few_balls`. The compiler makes vector instructions of the loop
 here: it looks at all balls in the time in which two or three are looked at one by one.
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.contact_time import RelativeMotion, gap_from_below, stays_positive
 from pool_sim_ros.physics.jit import Record, inlined
 
-STILL_X, RADII, MAY_MEET = 0, 2, 3
+STILL_X, STILL_Y, RADII, MAY_MEET = 0, 1, 2, 3
 """Rows that others write: NaN in the first for a ball that moves. The last one is room."""
 
 PATH = 4
@@ -62,3 +62,38 @@ def mark_those_near(
         gap, closing, opening = gap_from_below(motion, radius + radii[k], horizon)
         misses = stays_positive(gap, closing, opening, horizon)
         may_meet[k] = (still[k] != still[k]) & (not misses)
+
+
+def touched_in_rows(
+    table: Any,
+    rows: NDArray[np.float64],
+    place: tuple[float, float],
+    near: float,
+    pair: tuple[int, int],
+    now: float,
+) -> tuple[bool, bool]:
+    """Return that the rows tell, and whether any ball but `pair`, moving or at rest, touches."""
+    paths = rows[PATH:]
+    x, y, vx, vy, ax, ay, since = (
+        paths[0],
+        paths[1],
+        paths[2],
+        paths[3],
+        paths[4],
+        paths[5],
+        paths[6],
+    )
+    still_x, still_y, radii = rows[STILL_X], rows[STILL_Y], rows[RADII]
+    found = 0
+    for k in range(rows.shape[1]):
+        elapsed = now - since[k]
+        moves = still_x[k] != still_x[k]
+        at_x = x[k] + elapsed * (vx[k] + 0.5 * elapsed * ax[k])
+        at_y = y[k] + elapsed * (vy[k] + 0.5 * elapsed * ay[k])
+        dx, dy = (
+            (at_x if moves else still_x[k]) - place[0],
+            (at_y if moves else still_y[k]) - place[1],
+        )
+        touch = near + radii[k]
+        found |= (dx * dx + dy * dy <= touch * touch) & (k != pair[0]) & (k != pair[1])
+    return True, found != 0

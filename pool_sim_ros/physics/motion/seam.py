@@ -164,6 +164,22 @@ def sift(
 
 
 @chosen_by('table')
+def touched_in_rows(
+    table: Any,
+    rows: NDArray[np.float64],
+    place: tuple[float, float],
+    near: float,
+    pair: tuple[int, int],
+    now: float,
+) -> tuple[bool, bool]:
+    """Return whether `rows` tell, and if so whether any ball but `pair` touches a circle at `now`.
+
+    The circle has the radius `near` round `place`, m.
+    """
+    raise NotImplementedError
+
+
+@chosen_by('table')
 def rest_begins(ball: Any, table: Any) -> float:
     """Return when a ball that rests has stopped to spin too, s."""
     raise NotImplementedError

@@ -41,8 +41,10 @@ def test_what_moves_is_listed_in_order(count):
         note_motion(few, balls, i)
         moves = balls['phase'] != RESTS
         assert few.moving[: n_moving(few)].tolist() == np.flatnonzero(moves).tolist()
-        assert np.array_equal(few.rows[X], np.where(moves, np.nan, balls['x']), equal_nan=True)
-        assert np.array_equal(few.rows[Y][~moves], balls['y'][~moves])
+        assert np.array_equal(
+            few.rows[X, :count], np.where(moves, np.nan, balls['x']), equal_nan=True
+        )
+        assert np.array_equal(few.rows[Y, :count][~moves], balls['y'][~moves])
 
 
 def test_of_a_table_with_many_balls_nothing_is_noted():

@@ -14,6 +14,7 @@ from pool_sim_ros.physics.motion.moving_balls import (
     N_ROWS,
     keep_in_rows,
     mark_those_near,
+    touched_in_rows,
 )
 
 RADIUS = 0.03
@@ -28,6 +29,11 @@ def keep(balls, rows):
 @njit
 def mark(path, radius, now, lasts, rows):
     mark_those_near(path, radius, now, lasts, rows)
+
+
+@njit
+def touches(rows, place, near, pair, now):
+    return touched_in_rows(None, rows, place, near, pair, now)
 
 
 @njit
@@ -96,3 +102,34 @@ def test_no_ball_is_left_out_that_is_met(count):
             left_out += near == 0.0
             assert near == 1.0 or not touches
     assert met > 20 and left_out > 100
+
+
+@pytest.mark.parametrize('count', [1, 2, 7, 16])
+def test_what_touches_a_place_equals_a_look_at_each_ball(count):
+    rng = np.random.default_rng(count)
+    now, told = 0.5, [0, 0]
+    for _ in range(2000):
+        balls, rests = random_balls(rng, count)
+        rows = rows_of(balls, rests)
+        places = []
+        for ball, still in zip(balls, rests, strict=True):
+            e = 0.0 if still else now - ball['since']
+            places.append(
+                (
+                    ball['x'] + e * (ball['vx'] + 0.5 * e * ball['ax']),
+                    ball['y'] + e * (ball['vy'] + 0.5 * e * ball['ay']),
+                )
+            )
+        pair = tuple(rng.integers(-1, count, 2).tolist())
+        near = float(rng.choice([RADIUS, 0.1]))
+        k, angle = rng.integers(count), rng.uniform(0.0, 2 * math.pi)
+        away = (near + RADIUS) * (1.0 + rng.choice([-0.5, -1e-9, 1e-9, 0.5]))
+        place = places[k][0] + away * math.cos(angle), places[k][1] + away * math.sin(angle)
+        expected = any(
+            math.dist(place, spot) <= near + RADIUS
+            for m, spot in enumerate(places)
+            if m not in pair
+        )
+        assert touches(rows, place, near, pair, now) == (True, expected)
+        told[expected] += 1
+    assert min(told) > 100
