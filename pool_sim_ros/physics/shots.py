@@ -182,7 +182,10 @@ def simulate_many(
         layouts = given
     elif given is not None:
         check_layout(table, given)
-        at_rest = table.records_at(given)
+        if shots == 1:  # what is kept for the table is put there: to make it anew takes longer
+            layouts = given[np.newaxis]
+        else:
+            at_rest = table.records_at(given)
     check_end(table, moving, until, integrator, time_slice)
     outcomes = new_outcomes(shots, len(table.balls), out, len(table.pockets) > 0)
     ends = Ends(

@@ -28,6 +28,17 @@ class CdrReader:
         self._message, self._at = message, ENCAPSULATION
         self._order = '<' if message[1:2] == b'\1' else '>'
 
+    @property
+    def at(self) -> int:
+        """Where in the message it reads next."""
+        return self._at
+
+    def skip(self, data: bytes) -> bool:
+        """Return whether these bytes come next, and go past them if so."""
+        found = self._message.startswith(data, self._at)
+        self._at += len(data) if found else 0
+        return found
+
     def numbers(self, kinds: str) -> Any:
         """Return numbers of kinds that `struct` knows, each aligned to its own size."""
         found: list[Any] = []

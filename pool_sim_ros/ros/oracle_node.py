@@ -18,6 +18,7 @@ from pool_sim_ros.oracle import Plan, what_if
 from pool_sim_ros.physics import Table, compile_kernels
 from pool_sim_ros.ros import commands, interface, messages, oracle_interface
 from pool_sim_ros.ros.guarded_node import GuardedNode
+from pool_sim_ros.ros.large_blocks import keep_large_blocks
 from pool_sim_ros.ros.oracle_error import OracleCode, OracleError
 from pool_sim_ros.ros.plan_desk import PlanDesk
 from pool_sim_ros.ros.plan_json import LONGEST_REQUEST
@@ -64,6 +65,7 @@ class OracleNode(GuardedNode):
             start_parameter_services=False,
             parameter_overrides=[Parameter('start_type_description_service', value=False)],
         )
+        keep_large_blocks()
         self._threads = threads
         self._view = SimulatorView(self.context, simulator, 'oracle_view')
         self._table: Table | None = None

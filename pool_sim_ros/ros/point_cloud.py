@@ -6,8 +6,9 @@ message objects instead costs several copies of what may be 12 MB.
 
 from __future__ import annotations
 
+import io
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -106,7 +107,7 @@ def read_cloud(message: bytes) -> Cloud:
         height, width, count = reader.numbers('III')
         if count > MOST_FIELDS:
             raise ValueError
-        fields = tuple(Field(reader.text(), *reader.numbers('IBI')) for _ in range(count))
+        fields = _read_fields(reader, message, count)
         (is_bigendian,) = reader.numbers('?')
         point_step, row_step, length = reader.numbers('III')
         data = reader.rest(length)
@@ -127,6 +128,29 @@ def read_cloud(message: bytes) -> Cloud:
     )
 
 
+class _Fields(NamedTuple):
+    """The fields of a message, and its bytes that say so."""
+
+    aligned: tuple[int, int]
+    data: bytes
+    fields: tuple[Field, ...]
+
+
+_latest = [_Fields((0, 0), b'', ())]
+
+
+def _read_fields(reader: CdrReader, message: bytes, count: int) -> tuple[Field, ...]:
+    """Read so many fields: one sender has the same in each message, and to read them takes time."""
+    (latest,) = _latest
+    start = reader.at
+    aligned = message[1], start % 4
+    if (aligned, count) == (latest.aligned, len(latest.fields)) and reader.skip(latest.data):
+        return latest.fields
+    fields = tuple(Field(reader.text(), *reader.numbers('IBI')) for _ in range(count))
+    _latest[0] = _Fields(aligned, message[start : reader.at], fields)
+    return fields
+
+
 def rows_of(cloud: Cloud) -> NDArray[Any]:
     """Return the points of a cloud, (height * width,), with its fields; a view of its data.
 
@@ -135,17 +159,7 @@ def rows_of(cloud: Cloud) -> NDArray[Any]:
     ValueError
         Where its sizes contradict each other, or a field is none; says which.
     """
-    count = cloud.height * cloud.width
-    if cloud.row_step != cloud.width * cloud.point_step:
-        raise ValueError(
-            f'row_step: {cloud.row_step} must be width * point_step, '
-            f'{cloud.width} * {cloud.point_step}'
-        )
-    if len(cloud.data) != cloud.height * cloud.row_step:
-        raise ValueError(
-            f'data: {len(cloud.data)} bytes must be height * row_step, '
-            f'{cloud.height} * {cloud.row_step}'
-        )
+    check_sizes(cloud)
     names, formats, offsets = [], [], []
     for field in cloud.fields:
         kind = DATATYPES.get(field.datatype)
@@ -170,7 +184,21 @@ def rows_of(cloud: Cloud) -> NDArray[Any]:
     layout = np.dtype(
         {'names': names, 'formats': formats, 'offsets': offsets, 'itemsize': cloud.point_step}
     )
-    return np.frombuffer(cloud.data, layout, count)
+    return np.frombuffer(cloud.data, layout, cloud.height * cloud.width)
+
+
+def check_sizes(cloud: Cloud) -> None:
+    """Raise ValueError where the sizes of a cloud contradict each other."""
+    if cloud.row_step != cloud.width * cloud.point_step:
+        raise ValueError(
+            f'row_step: {cloud.row_step} must be width * point_step, '
+            f'{cloud.width} * {cloud.point_step}'
+        )
+    if len(cloud.data) != cloud.height * cloud.row_step:
+        raise ValueError(
+            f'data: {len(cloud.data)} bytes must be height * row_step, '
+            f'{cloud.height} * {cloud.row_step}'
+        )
 
 
 def fields_of(rows: NDArray[Any]) -> tuple[Field, ...]:
@@ -205,14 +233,43 @@ def cloud_bytes(
         Whether no number is missing (NaN).
     """
     columns = fields_of(rows) if fields is None else tuple(fields)
-    step = rows.dtype.itemsize
-    template, width_at = _head(frame_id, columns)
+    step, data = rows.dtype.itemsize, np.ascontiguousarray(rows)
+    return cloud_of_parts(stamp, frame_id, columns, (len(rows), step), [data], dense)
+
+
+def cloud_of_parts(
+    stamp: Stamp,
+    frame_id: str,
+    fields: tuple[Field, ...],
+    size: tuple[int, int],
+    parts: Iterable[NDArray[Any]],
+    dense: bool = True,
+) -> bytes:
+    """Return such a message, whose points come part by part.
+
+    Parameters
+    ----------
+    stamp, frame_id, fields, dense
+        As in `cloud_bytes`.
+    size : (int, int)
+        How many points there are, and bytes of a point.
+    parts : iterable of ndarray
+        Contiguous rows. Each is copied before the next one is asked for.
+    """
+    count, step = size
+    template, width_at = _head(frame_id, fields)
     head = bytearray(template)
     struct.pack_into('<iI', head, ENCAPSULATION, *stamp)
-    struct.pack_into('<I', head, width_at, len(rows))
-    head += struct.pack('<III', step, step * len(rows), step * len(rows))
-    points = np.ascontiguousarray(rows).view(np.uint8).data
-    return b''.join((bytes(head), points, DENSE[dense]))
+    struct.pack_into('<I', head, width_at, count)
+    head += struct.pack('<III', step, step * count, step * count)
+    message = io.BytesIO()
+    message.seek(len(head) + step * count)
+    message.write(DENSE[dense])  # makes room for all of it
+    message.seek(0)
+    message.write(head)
+    for part in parts:
+        message.write(part.view(np.uint8).data)
+    return message.getvalue()  # no copy
 
 
 @lru_cache(64)

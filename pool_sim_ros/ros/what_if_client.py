@@ -16,6 +16,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from pool_sim_ros.ros import oracle_interface
+from pool_sim_ros.ros.large_blocks import keep_large_blocks
 from pool_sim_ros.ros.oracle_error import OracleError
 from pool_sim_ros.ros.point_cloud import Stamp
 from pool_sim_ros.ros.what_if_rows import answer_from, request_bytes
@@ -58,6 +59,7 @@ class WhatIfClient:
     def __init__(
         self, node: Node, oracle: str = oracle_interface.ORACLE_NAME, *, frame_id: str = 'table'
     ) -> None:
+        keep_large_blocks()
         self._node, self._frame_id = node, frame_id
         asked, answer, rejected = (
             oracle_interface.WHAT_IF_REQUEST,

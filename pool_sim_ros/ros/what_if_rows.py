@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,7 +15,9 @@ from pool_sim_ros.ros.point_cloud import (
     Cloud,
     Field,
     Stamp,
+    check_sizes,
     cloud_bytes,
+    cloud_of_parts,
     read_cloud,
     rows_of,
 )
@@ -30,6 +33,9 @@ ROOM_BYTES = 64
 
 REQUEST_BYTES = 4096 + ROOM_BYTES * MOST_CANDIDATES
 """Bytes of a request that are read, with its head."""
+
+BLOCK = 512
+"""Rows that are packed or unpacked together: they stay in the cache from column to column."""
 
 VELOCITY, SPIN = ('vx', 'vy'), ('wx', 'wy', 'wz')
 """Fields of a candidate, m/s and rad/s."""
@@ -113,10 +119,13 @@ def candidates_from(message: bytes, frame_id: str) -> NDArray[np.float64]:
     _check_size(cloud)
     try:
         rows = rows_of(cloud)
-        names = _checked_names(cloud)
+        names = _checked_names(cloud, rows.dtype)
     except ValueError as error:
         raise OracleError(OracleCode.BAD_FIELDS, str(error)) from None
-    return np.stack([rows[name] for name in names], axis=-1).astype(float)
+    candidates = np.empty((len(rows), len(names)))
+    for column, name in enumerate(names):
+        candidates[:, column] = rows[name]
+    return candidates
 
 
 def _check_size(cloud: Cloud) -> None:
@@ -132,7 +141,7 @@ def _check_size(cloud: Cloud) -> None:
         raise OracleError(OracleCode.BAD_FIELDS, 'is_bigendian: must be false')
 
 
-def _checked_names(cloud: Cloud) -> tuple[str, ...]:
+def _checked_names(cloud: Cloud, layout: np.dtype[Any]) -> tuple[str, ...]:
     given = {field.name: field for field in cloud.fields}
     names = VELOCITY + SPIN if any(name in given for name in SPIN) else VELOCITY
     if set(given) != set(names):
@@ -142,7 +151,7 @@ def _checked_names(cloud: Cloud) -> tuple[str, ...]:
             f'{", ".join(SPIN)}'
         )
     for name in names:
-        kind = NAMES[rows_of(cloud).dtype[name].base.str[1:]]
+        kind = NAMES[layout[name].base.str[1:]]
         if kind != 'FLOAT64':
             raise ValueError(f'fields: {name} is {kind} and must be FLOAT64')
         if given[name].numbers != 1:
@@ -163,17 +172,26 @@ def answer_bytes(stamp: Stamp, frame_id: str, table: Table, outcomes: Outcomes) 
         Of m candidates, at least one.
     """
     layout, fields = _answer_layout(table.labels)
-    cue = outcomes.finals[:, 0]
-    radius = np.where(outcomes.pocketed[:, 0] < 0, table.balls[0].radius, -table.balls[0].radius)
-    rows = np.zeros(len(cue), layout)
-    rows['x'], rows['y'] = cue.T
-    rows['z'] = np.where(outcomes.failed == 0, radius, np.nan)
-    rows['duration'] = outcomes.durations
-    rows['finals'] = outcomes.finals
-    rows['events'] = outcomes.event_counts
-    rows['first_hit'] = outcomes.first_hit
-    rows['pocketed'] = outcomes.pocketed
-    return cloud_bytes(stamp, frame_id, rows, fields, dense=not outcomes.failed.any())
+    count, radius = len(outcomes.durations), table.balls[0].radius
+    block = np.zeros(min(BLOCK, count), layout)
+
+    def parts() -> Iterator[NDArray[Any]]:
+        for first in range(0, count, BLOCK):
+            part = slice(first, min(first + BLOCK, count))
+            rows = block[: part.stop - first]
+            finals, pocketed = outcomes.finals[part], outcomes.pocketed[part]
+            rows['x'], rows['y'] = finals[:, 0, 0], finals[:, 0, 1]
+            height = np.where(pocketed[:, 0] < 0, radius, -radius)
+            rows['z'] = np.where(outcomes.failed[part] == 0, height, np.nan)
+            rows['duration'] = outcomes.durations[part]
+            rows['finals'] = finals
+            rows['events'] = outcomes.event_counts[part]
+            rows['first_hit'] = outcomes.first_hit[part]
+            rows['pocketed'] = pocketed
+            yield rows
+
+    dense, size = not outcomes.failed.any(), (count, layout.itemsize)
+    return cloud_of_parts(stamp, frame_id, fields, size, parts(), dense)
 
 
 def no_answer_bytes(stamp: Stamp, frame_id: str) -> bytes:
@@ -225,7 +243,11 @@ def answer_from(message: bytes) -> tuple[Stamp, WhatIf | None]:
     layout, fields = _answer_layout(labels)
     if (cloud.fields, cloud.point_step) != (fields, layout.itemsize) or cloud.is_bigendian:
         raise ValueError('a point cloud that is no answer of an oracle')
-    rows_of(cloud)  # checks the sizes
+    check_sizes(cloud)
     rows = np.frombuffer(cloud.data, layout)
-    names = ('finals', 'duration', 'events', 'first_hit', 'pocketed')
-    return cloud.stamp, WhatIf(labels, *(np.ascontiguousarray(rows[name]) for name in names))
+    columns = [rows[name] for name in ('finals', 'duration', 'events', 'first_hit', 'pocketed')]
+    found = [np.empty(column.shape, column.dtype) for column in columns]
+    for first in range(0, len(rows), BLOCK):
+        for column, copy in zip(columns, found, strict=True):
+            copy[first : first + BLOCK] = column[first : first + BLOCK]
+    return cloud.stamp, WhatIf(labels, *found)

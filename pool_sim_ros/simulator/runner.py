@@ -216,11 +216,12 @@ class Runner:
             while not self._stopping.is_set():
                 with self._lock:
                     self._steps.serve()
-                    wait = self._show_due_frames()
+                    due = time.monotonic() + self._show_due_frames()
                     if not just_before:
                         self._show_signs_of_life()
                         self._look_ahead()
-                    wait = min(wait, self._steps.wait)
+                    # What was done meanwhile took some of the time until the next frame.
+                    wait = min(due - time.monotonic(), self._steps.wait)
                 time.sleep(nap(wait, time.monotonic() - self._last_request < BUSY_PERIOD))
                 just_before = is_just_before(wait) and not just_before
         except Exception:

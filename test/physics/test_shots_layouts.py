@@ -39,6 +39,22 @@ def test_layouts_of_few_balls(law, threads, monkeypatch):
     assert_one_by_one(table, velocities, layouts, outcomes)
 
 
+@pytest.mark.parametrize('law', LAWS)
+def test_one_shot_from_another_layout_each_time(law):
+    """What is kept for the table is put to each layout, and back to the table's own."""
+    rng = np.random.default_rng(59)
+    table = dataclasses.replace(report_table(), ball_friction=law)
+    layouts = random_layouts(rng, table, 10)
+    layouts[::3] = table.positions
+    velocities = [random_velocity(rng) for _ in layouts]
+    whole = simulate_many(table, velocities, positions=layouts)
+    for k, (velocity, layout) in enumerate(zip(velocities, layouts, strict=True)):
+        given = {} if k % 3 == 0 else {'positions': layout}
+        alone = simulate_many(table, [velocity], **given)
+        for one, all_ in zip(alone[:6], whole[:6], strict=True):
+            assert one[0].tobytes() == all_[k].tobytes()
+
+
 @pytest.mark.parametrize('threads', [1, 2])
 def test_layouts_of_many_balls(threads, monkeypatch):
     monkeypatch.setattr(cores, 'CHUNK', 7)

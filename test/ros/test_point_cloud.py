@@ -85,6 +85,18 @@ def test_sizes_that_contradict_each_other_are_named(changes, words):
         rows_of(cloud)
 
 
+def test_each_message_has_its_own_fields():
+    """Those of the latest message are kept: the next one may have others, or be cut off."""
+    one, other = (np.zeros(2, [(name, kind)]) for name, kind in (('vx', '<f8'), ('vy', '<f4')))
+    both = np.zeros(2, [('vx', '<f8'), ('vy', '<f4')])
+    for rows in (one, other, one, both, one, both):
+        for frame_id in ('', 'table', 'tables'):
+            data = cloud_bytes((1, 2), frame_id, rows)
+            assert [field.name for field in read_cloud(data).fields] == list(rows.dtype.names)
+            with pytest.raises(ValueError, match='no sensor_msgs'):
+                read_cloud(data[:40])
+
+
 def test_foreign_bytes_are_refused():
     whole = cloud_bytes((1, 2), 'table', ROWS)
     cut = [whole[:end] for end in range(len(whole))]

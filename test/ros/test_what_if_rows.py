@@ -12,6 +12,7 @@ from pool_sim_ros.physics import Outcomes, pool_table, report_table
 from pool_sim_ros.ros.oracle_error import OracleError
 from pool_sim_ros.ros.point_cloud import cloud_bytes
 from pool_sim_ros.ros.what_if_rows import (
+    BLOCK,
     MOST_CANDIDATES,
     REQUEST_BYTES,
     answer_bytes,
@@ -117,9 +118,10 @@ def answered(table, candidates):
     return outcomes, answer_bytes(STAMP, 'table', table, outcomes)
 
 
-def test_an_answer_has_the_bits_of_the_engine():
+@pytest.mark.parametrize('count', [1, 200, 2 * BLOCK, 2 * BLOCK + 1])
+def test_an_answer_has_the_bits_of_the_engine(count):
     table = report_table()
-    candidates = np.random.default_rng(2).uniform(-4.0, 4.0, (200, 2))
+    candidates = np.random.default_rng(2).uniform(-4.0, 4.0, (count, 2))
     outcomes, data = answered(table, candidates)
     stamp, found = answer_from(data)
     assert stamp == STAMP and found.labels == table.labels
