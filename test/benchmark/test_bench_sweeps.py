@@ -27,7 +27,7 @@ from pool_sim_ros.study.plan import checked_plan  # noqa: E402
 from pool_sim_ros.study.store import created  # noqa: E402
 
 SECTION = 'Sweeps, two workers'
-ROUNDS, CALLS, REGIONS = 6, 5, 6
+ROUNDS, CALLS, REGIONS = 4, 16, 6
 """A round is so many calls of `simulate_many` with the shots of so many regions; a sweep of as many
 shots takes so long that its begin and its end count as little as in the sweeps that need workers.
 """
