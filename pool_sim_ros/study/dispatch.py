@@ -14,7 +14,7 @@ from pool_sim_ros.extras import needs
 from pool_sim_ros.study.description import engine
 from pool_sim_ros.study.errors import SweepError
 from pool_sim_ros.study.failures import GO_ON, failure
-from pool_sim_ros.study.region_task import play_region
+from pool_sim_ros.study.region_task import play_regions
 from pool_sim_ros.study.store import Store
 from pool_sim_ros.study.tally import Tally
 
@@ -26,6 +26,12 @@ TASKS_A_THREAD = 4
 
 LEAST_TASKS = 64
 """In hand at least: a cluster that grows with its queue must see one."""
+
+TASK_REGIONS = 4
+"""Of a task at most: Dask takes a thirtieth as long for a task as a region of 100,000 shots."""
+
+TASKS_TO_COME = 8
+"""A thread: as the end comes near, tasks grow small, so that all threads end together."""
 
 CONNECT = '20s'
 """In which a scheduler must answer."""
@@ -72,24 +78,36 @@ def _await_workers(client: Any, address: str, tally: Tally) -> None:
 
 
 def _play(client: Any, address: str, store: Store, tally: Tally) -> None:
-    left = iter(np.flatnonzero(~store.finished()).tolist())
+    threads = max(sum(client.nthreads().values()), 1)
+    left = batches(np.flatnonzero(~store.finished()).tolist(), threads)
     where = str(store.path.absolute()), store.identity, engine()
-    in_hand: dict[str, int] = {}
+    in_hand: dict[str, list[int]] = {}
 
     def more(count: int) -> Iterator[Any]:
-        for number in islice(left, count):
-            key = f'pool-{store.identity[:12]}-{number}'
-            in_hand[key] = number
-            yield client.submit(play_region, *where, number, key=key, pure=True)
+        for numbers in islice(left, count):
+            # Tasks of one key have the same regions: those left later are among those left now.
+            ends = f'{numbers[0]}-{numbers[-1]}-{len(numbers)}'
+            key = f'pool-{store.identity[:12]}-{ends}'
+            in_hand[key] = numbers
+            yield client.submit(play_regions, *where, numbers, key=key, pure=True)
 
-    threads = max(sum(client.nthreads().values()), 1)
     first = list(more(max(TASKS_A_THREAD * threads, LEAST_TASKS)))
     done = as_completed(first, loop=client.loop)
     for future in done:
         check(future, address, store)
         # What the task returns is known here; to ask for it would take another message.
-        tally.add(store.plan.region(in_hand.pop(future.key)).count)
+        tally.add(sum(store.plan.region(n).count for n in in_hand.pop(future.key)))
         done.update(list(more(1)))
+
+
+def batches(numbers: list[int], threads: int) -> Iterator[list[int]]:
+    """Share regions out among tasks, in order: some for each, at the end one for each."""
+    done = 0
+    while done < len(numbers):
+        fair = (len(numbers) - done) // (TASKS_TO_COME * threads)
+        count = min(max(fair, 1), TASK_REGIONS)
+        yield numbers[done : done + count]
+        done += count
 
 
 def check(future: Any, address: str, store: Store) -> None:

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics import Table
 from pool_sim_ros.study.checks import checked_layouts, counted
 from pool_sim_ros.study.inputs import LAYOUT, Inputs, coefficients_of, rows_of
-from pool_sim_ros.study.ranges import Normal, Range, Uniform, is_random, row_of
-from pool_sim_ros.study.shot_random import normals, uniforms, words_of
+from pool_sim_ros.study.ranges import Normal, Range, Uniform, is_random
+from pool_sim_ros.study.shot_random import first_normals, uniforms, words_of
+from pool_sim_ros.study.workspace import pieces
 
 Floats = NDArray[np.float64]
 
@@ -144,32 +145,51 @@ class Plan:
         """The inputs that are drawn for each shot."""
         return tuple(name for name, given in self.inputs.items() if is_random(given))
 
-    def values(self, name: str, region: Region) -> Floats:
-        """Return an input of the shots of a region, (count,)."""
+    def values(self, name: str, region: Region, out: Floats | None = None) -> Floats:
+        """Return an input of the shots of a region, (count,), in `out` where it is given."""
+        out = np.empty(region.count) if out is None else out
         given = self.inputs[name]
-        if isinstance(given, (Uniform, Normal)):
-            words = words_of(self.seed, name, region.first, region.count)
-            if isinstance(given, Uniform):
-                return given.low + (given.high - given.low) * uniforms(words[:, 0])
-            middle = given.mean if row_of(given) is None else self._along(name, region)
-            return middle + given.deviation * normals(words)[:, 0]
-        if row_of(given) is None:
-            return np.full(region.count, given)
-        return self._along(name, region)
+        if isinstance(given, Uniform):
+            for part in pieces(region.count):
+                words = self._words(name, region, part)
+                np.multiply(given.high - given.low, uniforms(words[:, 0]), out=out[part])
+            out += given.low
+            return out
+        shaped = out.reshape(region.shape)
+        middle = given.mean if isinstance(given, Normal) else given
+        if isinstance(middle, np.ndarray):
+            middle = self.spread(name, middle, region)
+        if isinstance(given, Normal):
+            for part in pieces(region.count):
+                numbers = first_normals(self._words(name, region, part))
+                np.multiply(given.deviation, numbers, out=out[part])
+            shaped += middle
+        else:
+            shaped[...] = middle
+        return out
 
-    def _along(self, name: str, region: Region) -> Floats:
-        row = row_of(self.inputs[name])
-        assert row is not None
-        return row[self.places(name, region)]
+    def _words(self, name: str, region: Region, part: slice) -> NDArray[np.uint64]:
+        return words_of(self.seed, name, region.first + part.start, part.stop - part.start)
 
-    def places(self, dimension: str, region: Region) -> NDArray[np.int64]:
-        """Return where each shot of a region stands along a dimension, (count,)."""
+    def spread(self, dimension: str, row: Floats, region: Region) -> Floats:
+        """Return what stands along a dimension as numpy broadcasts it to the shape of a region.
+
+        Parameters
+        ----------
+        dimension : str
+        row : ndarray of shape (k, ...)
+            As long as the dimension.
+        region : Region
+
+        Returns
+        -------
+        ndarray of shape (1, ..., j, ..., 1, ...)
+            The j of them that the region has.
+        """
         k = list(self.sizes).index(dimension)
-        part = region.slices[k]
         shape = [1] * len(self.shape)
-        shape[k] = part.stop - part.start
-        along = np.arange(part.start, part.stop).reshape(shape)
-        return np.broadcast_to(along, region.shape).reshape(-1)
+        shape[k] = -1
+        return row[region.slices[k]].reshape(*shape, *row.shape[1:])
 
 
 def checked_plan(

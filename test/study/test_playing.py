@@ -10,6 +10,7 @@ from pool_sim_ros.study.inputs import checked_inputs
 from pool_sim_ros.study.plan import checked_plan
 from pool_sim_ros.study.playing import CANNOT_BE, Player, table_with
 from pool_sim_ros.study.ranges import normal, uniform
+from pool_sim_ros.study.shot_random import normals, words_of
 
 REPORT, SEVEN_FOOT = report_table(), pool_table('7ft')
 
@@ -106,6 +107,20 @@ def test_a_player_uses_its_memory_again_and_that_changes_nothing():
     first = {name: values.copy() for name, values in player.play(plan.region(0)).items()}
     for name, values in player.play(plan.region(0)).items():
         assert values.tobytes() == first[name].tobytes()
+
+
+def test_what_is_drawn_piece_by_piece_is_drawn_shot_by_shot(monkeypatch):
+    inputs = {'vx': normal([-4.0, -3.0], 0.1), 'vy': uniform(-0.1, 0.1), 'jitter': 1e-4}
+    plan = plan_of(REPORT, samples=40, **inputs)
+    whole = {name: values.copy() for name, values in played(plan).items()}
+    monkeypatch.setattr('pool_sim_ros.study.workspace.PIECE', 7)
+    for name, values in played(plan).items():
+        assert values.tobytes() == whole[name].tobytes()
+    words = words_of(5, 'vx', 43, 1)
+    assert whole['vx'][43] == -3.0 + 0.1 * normals(words)[0, 0]
+    noise = [normals(words_of(5, f'jitter {k}', 43, 1))[0] for k in range(6)]
+    layout = REPORT.positions + 1e-4 * np.concatenate(noise)[:22].reshape(11, 2)
+    assert_same(REPORT, whole, 43, (whole['vx'][43], whole['vy'][43]), positions=layout)
 
 
 @pytest.mark.parametrize('value', [0.5, 7.0])

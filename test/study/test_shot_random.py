@@ -5,7 +5,7 @@ import statistics
 
 import numpy as np
 
-from pool_sim_ros.study.shot_random import normals, uniforms, words_of
+from pool_sim_ros.study.shot_random import first_normals, normals, uniforms, words_of
 
 
 def test_any_pieces_give_the_same_bits():
@@ -14,6 +14,11 @@ def test_any_pieces_give_the_same_bits():
     np.testing.assert_array_equal(np.concatenate(pieces), whole)
     cut = np.concatenate([normals(piece) for piece in pieces])
     assert cut.tobytes() == normals(whole).tobytes()
+
+
+def test_the_first_normals_are_the_first_column():
+    words = words_of(7, 'speed', 0, 1001)
+    assert first_normals(words).tobytes() == normals(words)[:, 0].tobytes()
 
 
 def test_far_shots_have_words_too():
