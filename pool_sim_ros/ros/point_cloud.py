@@ -55,7 +55,6 @@ class Cloud(NamedTuple):
     height, width : int
     fields : tuple of Field
     is_bigendian : bool
-        Of the data.
     point_step, row_step : int
         Bytes of a point, and of a row of them.
     data : memoryview

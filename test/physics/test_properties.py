@@ -1,13 +1,12 @@
 """Any table and any shot, as hypothesis finds them: the checks of `test_robust`."""
 
 import numpy as np
-import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from soundness import assert_sound
 from tables import under
 
-from pool_sim_ros.physics import Ball, ShotTooLong, Table, simulate
+from pool_sim_ros.physics import Ball, Table, simulate
 
 CELL = 0.12  # m: the side of the square that each ball has to itself
 COLUMNS = 10
@@ -52,13 +51,6 @@ def coulomb_tables(draw):
     )
 
 
-def is_wedged(table):
-    """Whether a ball has no room between two rails that lose hardly anything: see below."""
-    room = min(table.length, table.width) - 2.0 * table.radii.max()
-    return table.e_ball_cushion > 0.9 and room < 1e-9
-
-
-@pytest.mark.xfail(raises=ShotTooLong, strict=True, reason='such a shot is given up')
 def test_balls_without_room_between_rails_that_lose_nothing():
     radii, places = (0.06,) * 4 + (0.03, 0.06), (0.06, 0.18, 0.3, 0.42, 0.51, 0.66)
     balls = [
@@ -79,7 +71,8 @@ def test_balls_without_room_between_rails_that_lose_nothing():
     )
     velocities = np.zeros((6, 2))
     velocities[5] = -1.0, -1.0
-    simulate(table, velocities, until=0.2)
+    shot = simulate(table, velocities, until=0.2)
+    assert np.isfinite(shot.final_positions).all() and len(shot.events) < 5000
 
 
 def velocities_of(table):
@@ -99,7 +92,6 @@ SETTINGS = settings(
 @given(st.data())
 def test_any_shot_under_coulomb(data):
     table = data.draw(coulomb_tables())
-    assume(not is_wedged(table))
     assert_sound(table, data.draw(velocities_of(table)), most_events=100_000, until=0.2)
 
 

@@ -22,6 +22,7 @@ from pool_sim_ros.physics import (
     Table,
     compile_kernels,
     report_table,
+    simulate_many,
 )
 
 GRID = list(itertools.product(range(8), range(8)))
@@ -220,6 +221,33 @@ def test_two_balls_wedged_between_cushions(e_ball_cushion):
     across = table_of(places, width=0.2, **elastic)
     for velocity in ((0.0, 1.0), (1.0, 0.3)):
         sound_under_both_laws(across, velocity)
+
+
+def test_balls_that_fill_the_table_from_rail_to_rail():
+    """Rails return nearly all: that rounding has them part is no reason to give a shot up."""
+    rng = np.random.default_rng(1)
+    for _ in range(40):
+        radius = float(rng.choice([0.03, 0.05, 0.06]))
+        radii = [radius, *rng.choice([radius, radius / 2], rng.integers(0, 6))]
+        ends = np.cumsum(2.0 * np.array(radii) + rng.choice([0.0, 0.05], len(radii)))
+        table = Table(
+            float(ends[-1] + rng.choice([0.0, 0.1])),
+            2.0 * radius * (1.0 + float(rng.choice([0.0, 1e-16, 1e-12, 1e-10]))),
+            [
+                Ball(str(k), 10.0 ** rng.uniform(-2.0, 0.0), r, (end - r, radius), is_cue=k == 0)
+                for k, (r, end) in enumerate(zip(radii, ends.tolist(), strict=True))
+            ],
+            mu_ball_ball=float(rng.choice([0.0, 0.06])),
+            mu_ball_surface=0.05,
+            mu_ball_cushion=float(rng.choice([0.0, 0.2])),
+            e_cue_ball=float(rng.choice([0.0, 0.5, 1.0])),
+            e_ball_ball=float(rng.choice([0.0, 0.5, 1.0])),
+            e_ball_cushion=float(rng.choice([0.9, 0.99, 1.0])),
+            ball_friction='coulomb',
+        )
+        outcomes = simulate_many(table, rng.normal(0.0, 2.0, (10, 2)), until=2.0, errors='mark')
+        assert not outcomes.failed.any() and np.isfinite(outcomes.finals).all()
+        assert outcomes.event_counts.max() < 20_000
 
 
 @pytest.mark.parametrize('law', LAWS)

@@ -40,6 +40,7 @@ from pool_sim_ros.physics.motion import (
 )
 from pool_sim_ros.physics.outcomes import PLAYED, RUNS_AWAY, TOO_MANY_EVENTS
 from pool_sim_ros.physics.runaway import most_energy
+from pool_sim_ros.physics.tolerances import LAST_ROUND
 
 
 @inlined
@@ -108,11 +109,12 @@ def longest_idleness(state: State) -> int:
     """Return how many steps without an event are possible: a bound that no shot reaches.
 
     Between two events each ball crosses each row and column once, and looks again at its next
-    event as often as it is told of another.
+    event as often as it is told of another. A contact that pushes nothing is no event: of a ball
+    that is wedged these end with its rattle.
     """
     n = len(state.balls)
     rows, columns = state.grid.first.shape
-    return n * (rows + columns + n)
+    return n * (rows + columns + n + LAST_ROUND)
 
 
 @inlined

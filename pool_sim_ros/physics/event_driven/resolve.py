@@ -45,6 +45,7 @@ from pool_sim_ros.physics.tolerances import (
     PRESSED_SPEED,
     TOUCHING,
     V_MIN,
+    V_ROUNDING,
 )
 
 
@@ -233,8 +234,9 @@ def want_separation(state: State, count: int, rounds: int, now: float) -> None:
         speeds = one.closing, slower_of(group, one.a, one.b)
         speed, repeats, presses = separation_speed(table, balls, one.a, one.b, speeds, now)
         if rounds > MAX_ROUNDS and one.closing < -CLOSING_ROUNDING:
-            # It parts; the others must not press it together again.
-            speed = 0.0
+            # It parts; the others must not press it together again. At 0, rounding would decide
+            # whether it is due again at once, and count as another round.
+            speed = V_ROUNDING
         elif rounds > MAX_ROUNDS + 1 or (rounds > MAX_ROUNDS and one.b < 0):
             speed = V_MIN
         one.separation, one.repeats, one.presses = speed, repeats, presses

@@ -74,15 +74,8 @@ def touched_in_rows(
 ) -> tuple[bool, bool]:
     """Return that the rows tell, and whether any ball but `pair`, moving or at rest, touches."""
     paths = rows[PATH:]
-    x, y, vx, vy, ax, ay, since = (
-        paths[0],
-        paths[1],
-        paths[2],
-        paths[3],
-        paths[4],
-        paths[5],
-        paths[6],
-    )
+    x, y, vx, vy, ax, ay = paths[0], paths[1], paths[2], paths[3], paths[4], paths[5]
+    since = paths[SINCE]
     still_x, still_y, radii = rows[STILL_X], rows[STILL_Y], rows[RADII]
     found = 0
     for k in range(rows.shape[1]):
@@ -90,10 +83,8 @@ def touched_in_rows(
         moves = still_x[k] != still_x[k]
         at_x = x[k] + elapsed * (vx[k] + 0.5 * elapsed * ax[k])
         at_y = y[k] + elapsed * (vy[k] + 0.5 * elapsed * ay[k])
-        dx, dy = (
-            (at_x if moves else still_x[k]) - place[0],
-            (at_y if moves else still_y[k]) - place[1],
-        )
+        dx = (at_x if moves else still_x[k]) - place[0]
+        dy = (at_y if moves else still_y[k]) - place[1]
         touch = near + radii[k]
         found |= (dx * dx + dy * dy <= touch * touch) & (k != pair[0]) & (k != pair[1])
     return True, found != 0

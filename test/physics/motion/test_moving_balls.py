@@ -31,9 +31,7 @@ def mark(path, radius, now, lasts, rows):
     mark_those_near(path, radius, now, lasts, rows)
 
 
-@njit
-def touches(rows, place, near, pair, now):
-    return touched_in_rows(None, rows, place, near, pair, now)
+touches = njit(touched_in_rows)
 
 
 @njit
@@ -130,6 +128,6 @@ def test_what_touches_a_place_equals_a_look_at_each_ball(count):
             for m, spot in enumerate(places)
             if m not in pair
         )
-        assert touches(rows, place, near, pair, now) == (True, expected)
+        assert touches(None, rows, place, near, pair, now) == (True, expected)
         told[expected] += 1
     assert min(told) > 100
