@@ -35,6 +35,8 @@ class WorkArea:
         n = len(table.balls)
         log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n, table.segment_type)
         self.state = new_state(table.for_kernels, table.balls_at_rest, log)
+        self.silent = self.state._replace(log=new_log(0, 0, table.segment_type))
+        """The same for shots of which neither events nor segments are kept."""
         self.start = start_of(self.state)
         self._duration, self._failed = np.empty(1), np.empty(1, np.int8)
         self._numbers = np.empty(1, np.int64), np.empty(1, np.int64)
