@@ -187,7 +187,7 @@ def advice(plan: Plan, workers: int) -> str:
     if plan.regions < 4 * workers and plan.shots > 1000 * workers:
         better = max(plan.shots // (8 * workers), 1000)
         return f'{line}: chunk={better} would keep {workers} workers busy to the end'
-    return f'{line}; a run that is killed loses those in hand, one a worker'
+    return f'{line}; a run that is killed loses those in hand'
 
 
 def _workers(workers: int | None, out: Any, scheduler: str | None, plan: Plan) -> int:

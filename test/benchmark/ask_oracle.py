@@ -7,6 +7,7 @@ import json
 import sys
 import time
 
+import echo
 import numpy as np
 import rclpy
 from rclpy.context import Context
@@ -15,9 +16,12 @@ from rclpy.node import Node
 
 from pool_sim_ros.oracle import what_if
 from pool_sim_ros.physics import report_table
-from pool_sim_ros.ros import WhatIfClient
+from pool_sim_ros.ros import WhatIfClient, oracle_interface
+from pool_sim_ros.ros.what_if_rows import request_bytes
 
 BURST = 20
+COUNTS = {1: 10, 10_000: 1, 50_000: 1}
+"""Candidates of a question, and how many times the rounds it is asked."""
 
 
 def candidates(count: int) -> np.ndarray:
@@ -25,6 +29,29 @@ def candidates(count: int) -> np.ndarray:
     rng = np.random.default_rng(count)
     angle, speed = rng.uniform(0.0, 2.0 * np.pi, count), rng.uniform(0.3, 5.0, count)
     return np.stack([speed * np.cos(angle), speed * np.sin(angle)], axis=-1)
+
+
+def echoes(node: Node, executor: SingleThreadedExecutor, rounds: int) -> list[float]:
+    """Return how long `echo.py` takes to answer messages of one candidate, s."""
+    asked, told = oracle_interface.WHAT_IF_REQUEST, oracle_interface.WHAT_IF_RESPONSE
+    heard: list[bytes] = []
+    requests = node.create_publisher(asked.type, asked.of(echo.NAME), asked.qos)
+    node.create_subscription(told.type, told.of(echo.NAME), heard.append, told.qos, raw=True)
+    message = request_bytes((1, 2), 'table', candidates(1))
+    while not heard:  # until both know each other
+        requests.publish(message)
+        executor.spin_once(0.3)
+    times = []
+    for _ in range(rounds):
+        while heard:  # what else is under way
+            heard.clear()
+            executor.spin_once(0.02)
+        start = time.perf_counter()
+        requests.publish(message)
+        while not heard:
+            executor.spin_once(1.0)
+        times.append(time.perf_counter() - start)
+    return times
 
 
 def main(rounds: int) -> None:
@@ -47,13 +74,13 @@ def main(rounds: int) -> None:
         return taken
 
     seconds(candidates(1))
-    times = {count: [] for count in (1, 10_000, 50_000)}
+    times = {count: [] for count in COUNTS}
     alone = {count: [] for count in times}
     table = report_table()
     equal = True
-    for _ in range(rounds):
-        for count in times:
-            rows = candidates(count)
+    for count, often in COUNTS.items():
+        rows = candidates(count)
+        for _ in range(rounds * often):
             times[count].append(seconds(rows))
             start = time.perf_counter()
             here = what_if(table, rows)
@@ -78,6 +105,7 @@ def main(rounds: int) -> None:
             {
                 'equal': equal,
                 'burst': burst,
+                'echo': float(np.median(echoes(node, executor, rounds * COUNTS[1]))),
                 'times': {count: float(np.median(t)) for count, t in times.items()},
                 'alone': {count: float(np.median(t)) for count, t in alone.items()},
             }

@@ -50,7 +50,11 @@ def process(module, *args, env):
 @pytest.mark.parametrize('setup', SETUPS)
 def test_what_if(domain, tell, setup):
     env = SETUPS[setup]
-    with process('cli.sim_node', env=env), process('cli.oracle', env=env):
+    with (
+        process('cli.sim_node', env=env),
+        process('cli.oracle', env=env),
+        process(HERE / 'echo.py', env=env),
+    ):
         with Process(HERE / 'ask_oracle.py', ROUNDS, prefix=AS_USERS, env=env) as asker:
             assert asker.wait() == 0, asker.stderr
     found = json.loads(asker.stdout)
@@ -58,6 +62,7 @@ def test_what_if(domain, tell, setup):
         alone = found['alone'][count] * 1e3
         figure = f'{seconds * 1e3:.2f} ms, of which the engine alone {alone:.2f}'
         tell(f'{int(count):,} candidates, {setup}', figure, TARGETS[setup][count])
+    tell(f'ROS alone there and back, {setup}', f'{found["echo"] * 1e3:.2f} ms')
     tell(f'burst of 20 x 10,000, {setup}', f'all answered in {found["burst"]:.2f} s', 'all')
     assert found['equal']
 
