@@ -6,7 +6,7 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from pool_sim_ros.console import Parser, count
+from pool_sim_ros.console import CommandError, Parser, count
 from pool_sim_ros.ros import add_simulator, ros_command
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ SHUTDOWN_PATIENCE = 0.1
 def _parser() -> argparse.ArgumentParser:
     epilog = [
         'ROS arguments, like --ros-args -r __node:=NAME -r __ns:=/NS, may follow.',
+        'With -p scheduler:=tcp://host:8786 among them a Dask cluster plays the shots.',
         '',
         'topics:',
         *_endpoints(),
@@ -50,6 +51,7 @@ def _endpoints() -> list[str]:
 @ros_command('oracle', _parser)
 def main(context: Context, options: argparse.Namespace) -> None:
     """Run the node."""
+    from pool_sim_ros.oracle import ClusterError
     from pool_sim_ros.ros import (
         LastingExecutor,
         OracleNode,
@@ -64,6 +66,8 @@ def main(context: Context, options: argparse.Namespace) -> None:
         executor = LastingExecutor(context)
         executor.add_node(node)
         executor.spin()
+    except ClusterError as error:
+        raise CommandError(str(error)) from None
     except Exception:
         if context.ok():  # else the shutdown overtook whatever was going on
             raise

@@ -9,7 +9,8 @@
 
 `what_if` plays candidates. `find_shots` sweeps, races and climbs among aims, given how badly
 somebody shoots and sees; `error_budget` says how well one must. `fit` finds the coefficients of
-a table from tracks. The room knows the physics alone: no ROS, no clock but for `seconds`.
+a table from tracks. A `Cluster` plays on other machines. The room knows the physics alone: no ROS,
+no clock but for `seconds`.
 """
 
 from typing import TYPE_CHECKING
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from pool_sim_ros.oracle.budget import ErrorBudget, error_budget
     from pool_sim_ros.oracle.calibration import Fit, fit
     from pool_sim_ros.oracle.candidates import what_if
+    from pool_sim_ros.oracle.cluster import Cluster, ClusterError
     from pool_sim_ros.oracle.goal import Goal
     from pool_sim_ros.oracle.noise import Noise
     from pool_sim_ros.oracle.plan import Failure, Plan, RankedShot
@@ -30,6 +32,8 @@ else:
     __getattr__ = lazy_exports(
         __name__,
         {
+            'Cluster': 'cluster',
+            'ClusterError': 'cluster',
             'ErrorBudget': 'budget',
             'Failure': 'plan',
             'Fit': 'calibration',
@@ -47,6 +51,8 @@ else:
     )
 
 __all__ = [
+    'Cluster',
+    'ClusterError',
     'ErrorBudget',
     'Failure',
     'Fit',

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pool_sim_ros.oracle.cluster import Cluster
 from pool_sim_ros.physics import Outcomes, Table, simulate_many
 
 
@@ -15,6 +16,7 @@ def what_if(
     positions: ArrayLike | None = None,
     events: bool = False,
     threads: int | None = None,
+    cluster: Cluster | None = None,
 ) -> Outcomes:
     """Return what would come of each candidate, exactly, without noise.
 
@@ -30,6 +32,8 @@ def what_if(
         Whether to keep all events.
     threads : int, optional
         At most so many; by default one for each core.
+    cluster : Cluster, optional
+        Where to play instead.
 
     Returns
     -------
@@ -40,6 +44,8 @@ def what_if(
     ------
     ValueError
         For a wrong shape, and a value that is not finite or too large.
+    ClusterError
+        Where the cluster does not play.
     """
     try:
         rows = np.asarray(candidates, dtype=float)
@@ -47,7 +53,8 @@ def what_if(
         raise ValueError('candidates: they are not an array of numbers') from None
     if rows.ndim != 2 or rows.shape[1] not in (2, 5):
         raise ValueError(f'candidates: shape {rows.shape} must be (m, 2) or (m, 5)')
-    return simulate_many(
+    play = simulate_many if cluster is None else cluster.simulate_many
+    return play(
         table,
         rows[:, :2],
         spins=rows[:, 2:] if rows.shape[1] == 5 else None,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from pool_sim_ros.oracle.assess import assess
 from pool_sim_ros.oracle.checks import checked_positions, time_allowed, whole
 from pool_sim_ros.oracle.climb import climb_best
+from pool_sim_ros.oracle.cluster import Cluster
 from pool_sim_ros.oracle.goal import Goal, goal_of
 from pool_sim_ros.oracle.noise import Noise, NoiseName, noise_of
 from pool_sim_ros.oracle.plan import Plan
@@ -51,6 +52,7 @@ def find_shots(
     speeds: tuple[float, float] = (0.3, 5.0),
     offset: float = 0.0,
     on_round: Callable[[int], object] | None = None,
+    cluster: Cluster | None = None,
 ) -> Plan:
     """Search for the shots that most likely meet a goal.
 
@@ -83,6 +85,8 @@ def find_shots(
     on_round : callable, optional
         Called with the number of shots played: 0 once all is checked, and then between two rounds.
         What it raises ends the search, and reaches the caller.
+    cluster : Cluster, optional
+        Where to play instead of here; the answer is the same.
 
     Returns
     -------
@@ -93,6 +97,8 @@ def find_shots(
     ------
     ValueError
         For a goal that the table cannot have, and for values out of range; names them.
+    ClusterError
+        Where the cluster does not play.
 
     Examples
     --------
@@ -111,7 +117,7 @@ def find_shots(
     allowed = time_allowed(seconds)
     space = checked_space(table, speeds, offset)
     seen = checked_positions(table, positions)
-    trials = Trials(table, goal_of(goal), noise_of(noise), seen, threads)
+    trials = Trials(table, goal_of(goal), noise_of(noise), seen, threads, cluster)
     cut: list[str] = []
     if on_round is not None:
         on_round(0)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pool_sim_ros.oracle.cluster import Cluster
 from pool_sim_ros.oracle.goal import Goal
 from pool_sim_ros.oracle.judge import Judge
 from pool_sim_ros.oracle.layouts import Layouts
@@ -37,6 +38,8 @@ class Trials:
         Where the balls were seen, m.
     threads : int or None
         At most so many play.
+    cluster : Cluster, optional
+        Where to play instead.
 
     Raises
     ------
@@ -51,7 +54,9 @@ class Trials:
         noise: Noise,
         positions: NDArray[np.float64],
         threads: int | None,
+        cluster: Cluster | None = None,
     ) -> None:
+        self._play = simulate_many if cluster is None else cluster.simulate_many
         self.table, self.positions, self.threads = table, positions, threads
         self.judge = Judge(table, goal, positions)
         self.layouts = Layouts(table, positions, noise.camera)
@@ -71,7 +76,7 @@ class Trials:
             Where the balls really lie, m.
         """
         velocities, spins, held = self.struck(strokes)
-        outcomes = simulate_many(
+        outcomes = self._play(
             self.table,
             velocities,
             spins=spins,

@@ -9,12 +9,13 @@ import json
 import threading
 from typing import Any
 
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
-from pool_sim_ros.oracle import Plan, what_if
+from pool_sim_ros.oracle import Cluster, ClusterError, Plan, what_if
 from pool_sim_ros.physics import Table, compile_kernels
 from pool_sim_ros.ros import commands, interface, messages, oracle_interface
 from pool_sim_ros.ros.guarded_node import GuardedNode
@@ -48,6 +49,14 @@ class OracleNode(GuardedNode):
     threads : int, optional
         At most so many threads play; by default one for each core.
     context : Context, optional
+    parameter_overrides : list of Parameter, optional
+        As rclpy's Node takes them. The parameter `scheduler` is the address of a Dask cluster that
+        plays instead of this process.
+
+    Raises
+    ------
+    ClusterError
+        Where the scheduler does not answer.
     """
 
     def __init__(
@@ -57,14 +66,23 @@ class OracleNode(GuardedNode):
         simulator: str = interface.NODE_NAME,
         threads: int | None = None,
         context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
     ) -> None:
         # Without services: an executor looks at each of them before every answer.
         super().__init__(
             node_name,
             context=context,
             start_parameter_services=False,
-            parameter_overrides=[Parameter('start_type_description_service', value=False)],
+            parameter_overrides=[
+                Parameter('start_type_description_service', value=False),
+                *(parameter_overrides or []),
+            ],
         )
+        try:
+            self._cluster = self._connected()
+        except Exception:
+            super().destroy_node()
+            raise
         keep_large_blocks()
         self._threads = threads
         self._view = SimulatorView(self.context, simulator, 'oracle_view')
@@ -76,7 +94,7 @@ class OracleNode(GuardedNode):
         self._rejections = self._publisher(oracle_interface.WHAT_IF_REJECTED)
         self._plans = self._publisher(oracle_interface.PLAN_RESPONSE)
         self._markers = self._publisher(oracle_interface.PLAN_MARKERS)
-        self._desk = PlanDesk(self._send_plan, self._view.lying, self._draw, threads)
+        self._desk = PlanDesk(self._send_plan, self._view.lying, self._draw, threads, self._cluster)
         asked = oracle_interface.WHAT_IF_REQUEST
         self.create_subscription(asked.type, asked.private, self._on_what_if, asked.qos, raw=True)
         wanted = oracle_interface.PLAN_REQUEST
@@ -96,7 +114,15 @@ class OracleNode(GuardedNode):
         """Leave ROS; this does not wait for a plan that is in the making."""
         self._desk.close(0.0)
         self._view.close()
+        if self._cluster is not None:
+            self._cluster.close()
         super().destroy_node()
+
+    def _connected(self) -> Cluster | None:
+        words = 'address of a Dask scheduler, like tcp://host:8786, whose workers play; empty: none'
+        descriptor = ParameterDescriptor(description=words, read_only=True)
+        address = self.declare_parameter('scheduler', '', descriptor).value
+        return Cluster(address) if address else None
 
     def _publisher(self, topic: interface.Topic) -> Publisher:
         return self.create_publisher(topic.type, topic.private, topic.publisher_qos)
@@ -122,9 +148,17 @@ class OracleNode(GuardedNode):
             candidates = candidates_from(message, self._view.frame_id)
             table, positions = self._view.lying()
             try:
-                outcomes = what_if(table, candidates, positions=positions, threads=self._threads)
+                outcomes = what_if(
+                    table,
+                    candidates,
+                    positions=positions,
+                    threads=self._threads,
+                    cluster=self._cluster,
+                )
             except ValueError as error:
                 raise OracleError(OracleCode.BAD_CANDIDATE, str(error)) from None
+            except ClusterError as error:
+                raise OracleError(OracleCode.FAILED, str(error)) from None
         except OracleError as error:
             fields = {'stamp': list(stamp), 'code': error.code, 'reason': error.reason}
             self._rejections.publish(String(data=json.dumps(fields)))

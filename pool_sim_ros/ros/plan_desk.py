@@ -9,7 +9,7 @@ from collections import OrderedDict, deque
 from collections.abc import Callable
 from typing import Any
 
-from pool_sim_ros.oracle import Plan, find_shots
+from pool_sim_ros.oracle import Cluster, ClusterError, Plan, find_shots
 from pool_sim_ros.ros.oracle_error import OracleCode, OracleError
 from pool_sim_ros.ros.plan_json import (
     LAST,
@@ -72,6 +72,8 @@ class PlanDesk:
         Called with each plan and the layout from which it starts, in the thread of the search.
     threads : int, optional
         At most so many play; by default one for each core.
+    cluster : Cluster, optional
+        Where to play instead.
     """
 
     def __init__(
@@ -80,7 +82,9 @@ class PlanDesk:
         look: Callable[[], Lying],
         on_plan: Callable[[Plan, Lying], None] = lambda plan, lying: None,
         threads: int | None = None,
+        cluster: Cluster | None = None,
     ) -> None:
+        self._cluster = cluster
         self._send, self._look, self._on_plan = send, look, on_plan
         self._threads = threads
         self._changed = threading.Condition()
@@ -183,6 +187,8 @@ class PlanDesk:
                 self._search(job)
             except Cancelled:
                 self._tell_cancelled(job)
+            except ClusterError as error:
+                self._tell(job, PlanPhase.CANCELLED, OracleCode.FAILED, reason=str(error))
             except Exception as error:
                 traceback.print_exc()
                 reason = f'the search failed: {" ".join(str(error).split()):.300}'
@@ -205,6 +211,7 @@ class PlanDesk:
             positions=lying.positions,
             threads=self._threads,
             on_round=on_round,
+            cluster=self._cluster,
             **job.request.search,
         )
         self._tell(job, PlanPhase.DONE, **plan_fields(plan, lying.table.labels, lying.positions))

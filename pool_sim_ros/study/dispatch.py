@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from pool_sim_ros.extras import needs
+from pool_sim_ros.oracle import Cluster, ClusterError
 from pool_sim_ros.study.description import engine
 from pool_sim_ros.study.errors import SweepError
 from pool_sim_ros.study.failures import GO_ON, failure
@@ -19,7 +20,7 @@ from pool_sim_ros.study.store import Store
 from pool_sim_ros.study.tally import Tally
 
 with needs('a sweep', 'study'):
-    from distributed import Client, as_completed
+    from distributed import as_completed
 
 TASKS_A_THREAD = 4
 """In hand at a time: enough that no worker waits for the next, whatever the sweep's length."""
@@ -32,9 +33,6 @@ TASK_REGIONS = 4
 
 TASKS_TO_COME = 8
 """A thread: as the end comes near, tasks grow small, so that all threads end together."""
-
-CONNECT = '20s'
-"""In which a scheduler must answer."""
 
 FIRST_WAIT = 5.0
 """Seconds after which a missing worker is told of."""
@@ -56,10 +54,9 @@ def play_on_cluster(address: str, store: Store, tally: Tally) -> None:
         Where the scheduler is not there, or goes; where a disk is full, or a worker cannot play.
     """
     try:
-        client = Client(address, timeout=CONNECT, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
-        why = ' '.join(str(error).split()) or type(error).__name__
-        raise SweepError(f'scheduler: {address!r} does not answer: {why}') from None
+        client = Cluster(address).client
+    except ClusterError as error:
+        raise SweepError(str(error)) from None
     try:
         _await_workers(client, address, tally)
         _play(client, address, store, tally)

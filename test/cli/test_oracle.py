@@ -39,3 +39,12 @@ def test_help_lists_the_topics(domain):
         assert oracle.wait() == 0
         for topic in oracle_interface.TOPICS:
             assert topic.private in oracle.stdout
+
+
+def test_a_scheduler_that_does_not_answer_is_one_line(domain):
+    pytest.importorskip('distributed')
+    with Process('cli.oracle', '--ros-args', '-p', 'scheduler:=nonsense') as oracle:
+        assert oracle.wait() == 1
+        told = oracle.stderr.strip().splitlines()[-1]
+        assert "scheduler: 'nonsense' does not answer" in told
+        assert 'Traceback' not in oracle.stderr

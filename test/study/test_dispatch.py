@@ -83,7 +83,7 @@ def test_a_task_that_failed_says_why(future, said, tmp_path):
 
 @pytest.mark.parametrize('address', ['tcp://127.0.0.1:9', 'nonsense', 'http://x'])
 def test_a_scheduler_that_is_not_there(tmp_path, monkeypatch, address):
-    monkeypatch.setattr(dispatch, 'CONNECT', '0.5s')
+    monkeypatch.setattr('pool_sim_ros.oracle.cluster.CONNECT', '0.5s')
     with pytest.raises(SweepError, match='^scheduler: .* does not answer') as told:
         sweep(TABLE, out=tmp_path / 'a', samples=2, scheduler=address, **GIVEN)
     assert '\n' not in str(told.value)

@@ -46,11 +46,13 @@ class Hall:
 
 
 @contextlib.contextmanager
-def hall(domain, **parameters):
-    """Start a simulator with these parameters, an oracle, and clients."""
+def hall(domain, of_oracle=(), **parameters):
+    """Start a simulator with these parameters, an oracle with its own, and clients."""
     with Ros(domain) as ros, contextlib.ExitStack() as stack:
         simulator = ros.sim_node(**parameters)
-        oracle = ros.add(OracleNode(context=ros.context, threads=1))
+        oracle = ros.add(
+            OracleNode(context=ros.context, threads=1, parameter_overrides=list(of_oracle))
+        )
         made = Hall(ros, simulator, oracle)
         stack.callback(made.shots.close)
         for node in (simulator, oracle, made.node):
