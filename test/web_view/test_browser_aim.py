@@ -150,8 +150,10 @@ def test_a_ball_is_dragged_to_where_it_shall_lie(page):
 
 
 def test_the_cue_ball_is_dragged_where_this_is_chosen(page):
+    page.page.locator('#take').scroll_into_view_if_needed()
     page.page.click('#take')
-    page.get('scrollTo(0, 0)')  # the button may lie below the table
+    top = page.get("document.getElementById('table').getBoundingClientRect().top")
+    assert top > -1.0
     page.page.mouse.move(*page.pixel(*TABLE.positions[0]))
     page.page.mouse.down()
     page.page.mouse.move(*page.pixel(1.7, 0.8), steps=5)

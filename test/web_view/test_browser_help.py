@@ -56,7 +56,7 @@ def test_the_best_three_are_listed_shown_and_one_is_played(page):
 
 
 def test_a_place_is_picked_on_the_table_and_nothing_else_happens(page):
-    page.page.click('#pick')
+    page.page.click('#pick')  # which brings the table into the window
     page.page.mouse.click(*page.pixel(0.6, 0.3))
     values = [float(page.page.input_value(f'#help-{axis}')) for axis in 'xy']
     assert values == pytest.approx([0.6, 0.3], abs=0.01)

@@ -28,6 +28,7 @@ export class Hand {
     this.takesCue = takes;
     $('take').setAttribute('aria-pressed', String(takes));
     this.view.canvas.classList.toggle('hand', takes);
+    if (takes) this.view.canvas.scrollIntoView({ block: 'nearest' }); // it may be above the window
   }
 
   take(event) {

@@ -46,6 +46,7 @@ export class Help {
   takeClick(takes) {
     this.takesClick = takes;
     $('pick').setAttribute('aria-pressed', String(takes));
+    if (takes) this.canvas.scrollIntoView({ block: 'nearest' }); // it may be above the window
   }
 
   pick(event) {
