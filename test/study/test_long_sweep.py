@@ -24,7 +24,15 @@ STEP = 100_000
 
 def workers_of(process):
     family = psutil.Process(process.pid).children(recursive=True)
-    return [p for p in family if 'spawn_main' in ' '.join(p.cmdline())]
+    return [p for p in family if lives(p) and 'spawn_main' in ' '.join(p.cmdline())]
+
+
+def lives(process):
+    """Whether a process runs: it may be gone by now, or wait for somebody to ask how it ended."""
+    try:
+        return process.status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
 
 
 def assert_equal_files(one, other):
@@ -49,7 +57,7 @@ def test_killed_and_resumed_it_is_the_one_made_in_one_go(tmp_path):
     def finished():
         nonlocal most
         for worker in workers:
-            if worker.is_running() and worker.status() != psutil.STATUS_ZOMBIE:
+            if lives(worker):
                 most = max(most, worker.memory_info().rss)
         return len(list(record.iterdir())) if record.is_dir() else 0
 
@@ -68,7 +76,8 @@ def test_killed_and_resumed_it_is_the_one_made_in_one_go(tmp_path):
     with Process('study', *args) as run:
         wait_until(lambda: len(workers_of(run)) == 2, 'the workers')
         workers = workers_of(run)
-        while psutil.Process(run.pid).status() != psutil.STATUS_ZOMBIE:
+        main = psutil.Process(run.pid)
+        while lives(main):
             finished()
             time.sleep(0.1)
         assert run.wait() == 0, run.stderr
