@@ -13,6 +13,7 @@ import numpy as np
 
 from pool_sim_ros.physics.jit import inlined
 from pool_sim_ros.physics.tolerances import (
+    GAP_ROUNDING,
     MAX_STEPS,
     PRESSED,
     ROOT_MARGIN,
@@ -86,7 +87,7 @@ def time_to_line(gap: float, closing: float, pressing: float, lasts: float) -> f
         s; finite where `pressing` is not zero.
     """
     if gap > -TOUCHING:
-        gap = max(gap, 0.0)
+        gap = gap if gap > GAP_ROUNDING else 0.0
     if closing <= 0.0:
         # A ball that lies on the line, and moves along it, is pressed by no more than rounding.
         if pressing <= 0.0 or lasts * (closing + 0.5 * pressing * lasts) - gap <= PRESSED:

@@ -28,6 +28,9 @@ STRAIGHT = 1e-12
 
 # Contact times
 
+GAP_ROUNDING = 1e-15
+"""Gap in m that rounding leaves between a ball and the rail on which it lies: at some of them."""
+
 PRESSED = 1e-12
 """Depth in m up to which a ball that is pressed to a cushion is so by rounding alone."""
 
