@@ -18,6 +18,9 @@ PART = 5_000
 CONNECT = '10s'
 """In which a scheduler must answer."""
 
+LOOK_PERIOD = 5.0
+"""Seconds between two looks whether there are workers, while shots are not played."""
+
 
 class ClusterError(Exception):
     """The cluster does not play; the message is for the user."""
@@ -95,7 +98,7 @@ class Cluster:
         Raises
         ------
         ClusterError
-            Where the cluster is gone, or a worker cannot play.
+            Where the cluster is gone, has no workers, or one of them cannot play.
         ValueError
             As there.
         """
@@ -114,8 +117,9 @@ class Cluster:
             for part in parts(len(velocities))
         ]
         try:
+            self._await(tasks)
             return joined(self.client.gather(tasks))
-        except ValueError:
+        except (ValueError, ClusterError):
             raise
         except (OSError, CancelledError, asyncio.CancelledError):
             raise ClusterError(f'scheduler: {self.address!r} is gone') from None
@@ -124,6 +128,19 @@ class Cluster:
             raise ClusterError(
                 f'scheduler: a worker of {self.address!r} cannot play: {why:.200}'
             ) from None
+
+    def _await(self, tasks: list[Any]) -> None:
+        """Wait for tasks as long as there is anybody to play them."""
+        from distributed import wait
+
+        while True:
+            try:
+                with self.client.as_current():
+                    wait(tasks, timeout=LOOK_PERIOD)
+                return
+            except (TimeoutError, asyncio.TimeoutError):
+                if not self.client.nthreads():
+                    raise ClusterError(f'scheduler: {self.address!r} has no workers') from None
 
     def close(self) -> None:
         """Leave the cluster; it goes on for others."""

@@ -84,6 +84,15 @@ def test_a_scheduler_that_is_not_there_is_told(monkeypatch):
         Cluster('nonsense')
 
 
+def test_one_without_workers_is_told(monkeypatch):
+    monkeypatch.setattr('pool_sim_ros.oracle.cluster.LOOK_PERIOD', 0.3)
+    with local_cluster(0) as address:
+        cluster = Cluster(address)
+        with pytest.raises(ClusterError, match='^scheduler: .* has no workers$'):
+            what_if(TABLE, velocities(10), cluster=cluster)
+        cluster.close()
+
+
 @pytest.mark.soak
 def test_one_that_goes_is_told():
     """Dask waits some seconds for it to come back."""

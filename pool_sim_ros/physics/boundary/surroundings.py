@@ -77,7 +77,7 @@ def free_stretches(
     """Return the boxes in which a ball that touches a rail touches nothing else, (k, 4) in m.
 
     They are x low, x high, y low, y high for each segment. For what is no rail, and for rails that
-    something else is near, they hold nothing. There must be an inner rectangle.
+    something else is near, they hold nothing. They count only where there is an inner rectangle.
     """
     boxes = np.tile((np.inf, -np.inf, np.inf, -np.inf), (len(segments), 1))
     for k in np.flatnonzero(rails >= 0):
