@@ -19,7 +19,6 @@ from pool_sim_ros.physics.contacts.edge import collide_with_edge
 from pool_sim_ros.physics.contacts.spheres import collide_spheres
 from pool_sim_ros.physics.jit import Record, chosen_by, register
 from pool_sim_ros.physics.motion import BallTable, DiscTable
-from pool_sim_ros.physics.tolerances import LEAST_PARTING, V_ROUNDING
 
 Velocity = tuple[float, float]
 
@@ -55,11 +54,17 @@ def collide_pair(
 
 @chosen_by('table')
 def bounce(
-    table: Any, ball: Record, cushion: int, normal: Velocity, velocity: Velocity, parting: float
+    table: Any,
+    ball: Record,
+    cushion: int,
+    normal: Velocity,
+    velocity: Velocity,
+    speeds: tuple[float, float],
 ) -> Velocity:
     """Return a ball's velocity after a contact with a cushion that nothing else touches.
 
-    Arguments are as those of `collide_pair`.
+    Arguments are as those of `collide_pair`, but for `speeds`: that at which they part by the
+    restitution, which a disc does, and the least, where the law makes less of it, m/s.
     """
     raise NotImplementedError
 
@@ -83,11 +88,11 @@ def _bounce_disc(
     cushion: int,
     normal: Velocity,
     velocity: Velocity,
-    parting: float,
+    speeds: tuple[float, float],
 ) -> Velocity:
     boundary = table.boundary
     along, across = to_cushion_axes(boundary, cushion, normal, velocity)
-    along, across = collide_disc_with_cushion(table, along, across, parting)
+    along, across = collide_disc_with_cushion(table, along, across, speeds[0])
     return from_cushion_axes(boundary, cushion, normal, (along, across))
 
 
@@ -122,17 +127,15 @@ def _bounce_sphere(
     cushion: int,
     normal: Velocity,
     velocity: Velocity,
-    parting: float,
+    speeds: tuple[float, float],
 ) -> Velocity:
     boundary, radius = table.boundary, table.radius
     # Exactly there: rounding would press a ball that goes on along the rail.
     ball.x, ball.y = put_on_cushion(boundary, cushion, ball.x, ball.y, radius)
-    closing = velocity[0] * normal[0] + velocity[1] * normal[1]
-    least = parting if closing <= LEAST_PARTING else V_ROUNDING
     radii = radius, nose_radius(boundary, cushion)
     spin = ball.wx, ball.wy, ball.wz
     velocity, (ball.wx, ball.wy, ball.wz) = collide_with_edge(
-        table.edge, velocity, spin, normal, radii, least
+        table.edge, velocity, spin, normal, radii, speeds[1]
     )
     return velocity
 

@@ -118,7 +118,7 @@ def separation_speed(
     b: int,
     speeds: tuple[float, float],
     now: float,
-) -> tuple[float, int, int]:
+) -> tuple[float, float, int, int]:
     """Return the speed in m/s at which the two sides of a contact are to part.
 
     Parameters
@@ -136,6 +136,9 @@ def separation_speed(
     Returns
     -------
     speed : float
+        The restitution times the speed at which they meet; of a weak contact at least `least`.
+    least : float
+        What a contact parts at if its law makes less of it, as that of an edge may.
     repeats, presses : int
         Of a weak contact, to be kept in both balls: how many follow each other at once, and how
         many over a while. -1 for any other contact.
@@ -150,11 +153,11 @@ def disc_separation(
     b: int,
     speeds: tuple[float, float],
     now: float,
-) -> tuple[float, int, int]:
+) -> tuple[float, float, int, int]:
     closing = max(speeds[0], 0.0)
     if b < 0:
         again = closing <= V_MIN and now - balls[a].last_contact_time < REPEAT_WINDOW
-        return 0.0 if again else table.e_ball_cushion * closing, -1, -1
+        return 0.0 if again else table.e_ball_cushion * closing, 0.0, -1, -1
     parting = restitution(table, balls[a].is_cue, balls[b].is_cue) * closing
     since = now - max(balls[a].last_contact_time, balls[b].last_contact_time)
     presses = 0
@@ -167,14 +170,15 @@ def disc_separation(
         if closing <= PRESS_MARGIN * least:
             # What lies still presses nothing; and two that move may just go on together.
             settles = speeds[1] <= V_MIN * V_MIN or presses % SETTLE_EVERY == 0
-            return V_ROUNDING if settles else least, MAX_REPEATS, presses
+            least = V_ROUNDING if settles else least
+            return least, least, MAX_REPEATS, presses
     if closing > V_MIN:
-        return parting, -1, -1
+        return parting, 0.0, -1, -1
     repeats = 0
     if since < REPEAT_WINDOW:
         repeats = min(max(balls[a].repeats, balls[b].repeats) + 1, MAX_REPEATS)
     least = min(V_MIN, V_ROUNDING * COLLAPSE_GROWTH**repeats)
-    return max(parting, least), repeats, presses
+    return max(parting, least), least, repeats, presses
 
 
 def ball_separation(
@@ -184,7 +188,7 @@ def ball_separation(
     b: int,
     speeds: tuple[float, float],
     now: float,
-) -> tuple[float, int, int]:
+) -> tuple[float, float, int, int]:
     # Balls that roll on in contact meet again and again, as does one that its spin presses to a
     # cushion: more slowly than discs do, which have no such push.
     closing = max(speeds[0], 0.0)
@@ -200,9 +204,9 @@ def ball_separation(
     # A ball that spins fast is pressed for long: this must end within few contacts.
     growth = HELD_GROWTH ** max(repeats - STEADY_HELD, 0)
     if closing > PRESS_MARGIN * growth * LEAST_PARTING:
-        return parting, -1, -1
+        return parting, V_ROUNDING, -1, -1
     least = min(LEAST_PARTING, V_ROUNDING * COLLAPSE_GROWTH ** min(repeats, MAX_REPEATS)) * growth
-    return max(parting, least), repeats, 0
+    return max(parting, least), least, repeats, 0
 
 
 register(separation_speed, DiscTable, disc_separation)

@@ -141,7 +141,7 @@ def hit_ball(state: State, a: int, b: int, now: float) -> None:
     nx, ny = normal
     closing = (va[0] - vb[0]) * nx + (va[1] - vb[1]) * ny
     slower = min(va[0] * va[0] + va[1] * va[1], vb[0] * vb[0] + vb[1] * vb[1])
-    parting, repeats, presses = separation_speed(table, balls, a, b, (closing, slower), now)
+    parting, _, repeats, presses = separation_speed(table, balls, a, b, (closing, slower), now)
     keep_counts(balls, a, b, repeats, presses)
     # A contact that rounding has part already pushes nothing.
     if closing + parting > 0.0:
@@ -159,12 +159,13 @@ def hit_cushion(state: State, a: int, partner: int, now: float) -> None:
     velocity = advance(balls[a], table, now)
     normal = cushion_normal(table.boundary, cushion, balls[a].x, balls[a].y)
     closing = velocity[0] * normal[0] + velocity[1] * normal[1]
-    parting, repeats, presses = separation_speed(table, balls, a, partner, (closing, 0.0), now)
+    speeds = closing, 0.0
+    parting, least, repeats, presses = separation_speed(table, balls, a, partner, speeds, now)
     keep_counts(balls, a, partner, repeats, presses)
     if closing + parting > 0.0:
         if closing > CLOSING_ROUNDING or parting > 0.0:
             log_contact(state, a, partner, normal, closing, now)
-        velocity = bounce(table, balls[a], cushion, normal, velocity, parting)
+        velocity = bounce(table, balls[a], cushion, normal, velocity, (parting, least))
     leave_contact(state, a, velocity, now)
 
 
@@ -232,7 +233,7 @@ def want_separation(state: State, count: int, rounds: int, now: float) -> None:
     for c in range(count):
         one = group.contacts[c]
         speeds = one.closing, slower_of(group, one.a, one.b)
-        speed, repeats, presses = separation_speed(table, balls, one.a, one.b, speeds, now)
+        speed, _, repeats, presses = separation_speed(table, balls, one.a, one.b, speeds, now)
         if rounds > MAX_ROUNDS and one.closing < -CLOSING_ROUNDING:
             # It parts; the others must not press it together again. At 0, rounding would decide
             # whether it is due again at once, and count as another round.

@@ -20,8 +20,8 @@ def pair(table, balls, va, vb, normal, parting):
 
 
 @njit
-def meet_cushion(table, balls, cushion, normal, velocity, parting):
-    return bounce(table, balls[0], cushion, normal, velocity, parting)
+def meet_cushion(table, balls, cushion, normal, velocity, speeds):
+    return bounce(table, balls[0], cushion, normal, velocity, speeds)
 
 
 def records(table, spins):
@@ -93,12 +93,12 @@ def test_the_image_of_two_balls_in_a_mirror(table, seed):
     np.testing.assert_allclose(mirrored_turned, turned * turn, rtol=1e-12, atol=1e-11)
 
 
-def at_cushion(model, velocity, spin, normal, parting=0.0, **fields):
+def at_cushion(model, velocity, spin, normal, least=0.0, **fields):
     """Return place, velocity and spin after ball 0 met a rail of a rectangle."""
     table = spinning_table(PLACES, cushion_model=model, **fields)
     balls = records(table, np.array([spin, np.zeros(3)]))
     cushion = [(-1, 0), (1, 0), (0, -1), (0, 1)].index(tuple(int(n) for n in normal))
-    after = meet_cushion(table.for_kernels, balls, cushion, normal, tuple(velocity), parting)
+    after = meet_cushion(table.for_kernels, balls, cushion, normal, tuple(velocity), (0.0, least))
     return (balls['x'][0], balls['y'][0]), np.array(after), spins_of(balls)[0]
 
 
@@ -133,7 +133,7 @@ def test_all_four_rails_are_turned_images_of_each_other(model, seed):
 
 @pytest.mark.parametrize('model', MODELS)
 def test_a_ball_that_hardly_closes_parts_as_fast_as_it_is_told(model):
-    _, after, _ = at_cushion(model, (0.3, 1e-4), np.zeros(3), (0.0, 1.0), parting=5e-4)
+    _, after, _ = at_cushion(model, (0.3, 1e-4), np.zeros(3), (0.0, 1.0), least=5e-4)
     assert after[1] <= -5e-4
 
 
@@ -143,5 +143,5 @@ def test_discs_have_their_own_law():
     balls = table.balls_at_rest.copy()
     va, vb = pair(table.for_kernels, balls, (1.0, 0.2), (0.0, 0.0), (1.0, 0.0), 0.8)
     np.testing.assert_allclose([va, vb], [(0.1, 0.2), (0.9, 0.0)], atol=1e-15)
-    after = meet_cushion(table.for_kernels, balls, 1, (1.0, 0.0), (1.0, 0.0), 0.7)
+    after = meet_cushion(table.for_kernels, balls, 1, (1.0, 0.0), (1.0, 0.0), (0.7, 0.0))
     np.testing.assert_allclose(after, (-0.7, 0.0), atol=1e-15)

@@ -33,7 +33,7 @@ from pool_sim_ros.physics.tolerances import (
 
 @njit
 def part(balls, table, a, b, closing, now, slower=1.0):
-    speed, repeats, presses = separation_speed(table, balls, a, b, (closing, slower), now)
+    speed, _, repeats, presses = separation_speed(table, balls, a, b, (closing, slower), now)
     keep_counts(balls, a, b, repeats, presses)
     return speed
 
