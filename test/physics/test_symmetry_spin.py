@@ -168,7 +168,7 @@ HELD = {  # place, velocity and spin of a ball, and when its image was found els
 
 @pytest.mark.parametrize('cushion_model', HELD)
 def test_a_ball_that_its_spin_holds_at_a_rail_for_seconds(cushion_model):
-    """It parts at the least speed and closes as fast, but for rounding: no rule may change there."""
+    """It parts at the least speed and closes as fast, but for rounding: no rule changes there."""
     place, velocity, spin, until = HELD[cushion_model]
     table = spinning_table([(0.1, 0.3)], cushion_model=cushion_model)
     given = (
