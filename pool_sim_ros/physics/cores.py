@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
+from functools import lru_cache
 
 CHUNK, LEAST_CHUNK = 4096, 512
 """Most and fewest shots that a thread takes at a time: long beside handing them out, short beside a
@@ -12,6 +13,9 @@ million."""
 
 CHUNKS_A_THREAD = 8
 """Parts for each thread where there are enough shots: the last ones must not wait long for one."""
+
+MOST_HELPERS = 1000
+"""Threads for all callers together: as many as are wanted, so that no caller waits for another."""
 
 
 def available_cores() -> int:
@@ -54,8 +58,23 @@ def share_out(
         finally:
             list(left)  # interrupted: nobody else goes on either
 
-    with ThreadPoolExecutor(helpers) as pool:
-        helping = [pool.submit(help_out) for _ in range(helpers)]
+    pool = kept_threads()
+    helping = [pool.submit(help_out) for _ in range(helpers)]
+    try:
         help_out()
-    for helper in helping:
+    finally:
+        # Nothing is left for one that has not begun by now.
+        begun = [helper for helper in helping if not helper.cancel()]
+        wait(begun)
+    for helper in begun:
         helper.result()
+
+
+@lru_cache(maxsize=1)
+def kept_threads() -> ThreadPoolExecutor:
+    """Return threads that wait for work: to start one takes as long as some hundred shots."""
+    return ThreadPoolExecutor(MOST_HELPERS, 'pool_sim_ros')
+
+
+if hasattr(os, 'register_at_fork'):
+    os.register_at_fork(after_in_child=kept_threads.cache_clear)  # a fork has no other thread

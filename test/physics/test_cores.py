@@ -1,6 +1,8 @@
 """How many shots are shared out among threads."""
 
 import os
+import subprocess
+import sys
 import threading
 
 import pytest
@@ -33,8 +35,8 @@ def test_each_shot_is_played_once(shots, threads, monkeypatch):
     assert all(0 < part.stop - part.start <= 10 for part in parts)
     most = min(threads or available_cores(), max(len(parts), 1))
     assert len(workers) <= most
-    assert len(told) == most
-    assert told == [most > 1] * most
+    assert 1 <= len(told) <= most, 'a thread that begins late has nothing to do'
+    assert set(told) == {most > 1}
 
 
 def test_one_thread_is_the_caller_s():
@@ -53,6 +55,65 @@ def test_all_threads_take_part(monkeypatch):
 
     share_out(30, play, 3)
     assert len(workers) == 3 and threading.current_thread() in workers
+
+
+def test_threads_wait_for_the_next_call(monkeypatch):
+    monkeypatch.setattr(cores, 'CHUNK', 1)
+    meeting = threading.Barrier(2, timeout=60.0)
+    workers = []
+
+    def play(left, others):
+        meeting.wait()
+        workers.append(threading.current_thread())
+        list(left)
+
+    for _ in range(50):
+        share_out(10, play, 2)
+    # One that has just finished may not wait yet when the next call comes.
+    assert len(workers) == 100 and len(set(workers)) < 20
+
+
+def test_two_callers_at_once_do_not_wait_for_each_other(monkeypatch):
+    monkeypatch.setattr(cores, 'CHUNK', 1)
+    meeting = threading.Barrier(6, timeout=60.0)  # all threads of both callers
+
+    def play(left, others):
+        meeting.wait()
+        list(left)
+
+    callers = [threading.Thread(target=share_out, args=(10, play, 3)) for _ in range(2)]
+    for caller in callers:
+        caller.start()
+    for caller in callers:
+        caller.join(60.0)
+    assert not any(caller.is_alive() for caller in callers)
+
+
+AFTER_A_FORK = """
+import os, threading
+from pool_sim_ros.physics.cores import share_out
+def play(left, others):
+    meeting.wait()
+    list(left)
+meeting = threading.Barrier(2, timeout=60.0)
+share_out(10000, play, 2)
+child = os.fork()
+if not child:
+    meeting = threading.Barrier(2, timeout=60.0)
+    try:
+        share_out(10000, play, 2)
+    except threading.BrokenBarrierError:
+        os._exit(1)
+    os._exit(0)
+assert os.waitpid(child, 0)[1] == 0, 'one thread alone'
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, 'fork'), reason='Windows has no fork')
+def test_a_fork_has_threads_of_its_own():
+    script = [sys.executable, '-W', 'ignore::DeprecationWarning', '-c', AFTER_A_FORK]
+    ended = subprocess.run(script, capture_output=True, text=True, timeout=120.0, check=False)
+    assert ended.returncode == 0, ended.stderr
 
 
 @pytest.mark.parametrize('fails', ['caller', 'helper'])

@@ -53,15 +53,15 @@ def play_parts(
         Called with the number of shots of each part that was played.
     """
     n = len(table.balls)
-    if shared or store is not None or at_rest is not table.balls_at_rest:
+    if store is None and at_rest is table.balls_at_rest:
+        area = work_area(table)
+        state, start = area.silent, area.start
+    else:
         log = new_log(0 if store is None else FIRST_ROOM + n, 0, table.segment_type)
         state = new_state(table.for_kernels, at_rest, log)
         start = start_of(state)
-    else:
-        area = work_area(table)
-        state, start = area.silent, area.start
-    if shared:
-        state = own_lines(state)
+        if shared:
+            state = own_lines(state)
     final_velocities = np.empty((n, 2))
     for part in parts:
         velocities, spins, layouts = (array[part] for array in shots)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_some
+from pool_sim_ros.physics.event_driven.false_sharing import own_lines
 from pool_sim_ros.physics.event_driven.state import copied, new_state, start_of, types_of
 from pool_sim_ros.physics.jit import call_directly
 from pool_sim_ros.physics.log import EVENT, new_log
@@ -35,7 +36,7 @@ class WorkArea:
         n = len(table.balls)
         log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n, table.segment_type)
         self.state = new_state(table.for_kernels, table.balls_at_rest, log)
-        self.silent = self.state._replace(log=new_log(0, 0, table.segment_type))
+        self.silent = own_lines(self.state._replace(log=new_log(0, 0, table.segment_type)))
         """The same for shots of which neither events nor segments are kept."""
         self.start = start_of(self.state)
         self._duration, self._failed = np.empty(1), np.empty(1, np.int8)
