@@ -29,17 +29,15 @@ def available_cores() -> int:
         return os.cpu_count() or 1
 
 
-def share_out(
-    shots: int, play: Callable[[Iterator[slice], bool], None], threads: int | None
-) -> None:
+def share_out(shots: int, play: Callable[[Iterator[slice]], None], threads: int | None) -> None:
     """Have `play` called with slices of so many shots until all are played.
 
     Parameters
     ----------
     shots : int
     play : callable
-        Takes an iterator of slices, and whether other threads take from it too. It is called in
-        each of the threads, of which the caller's is one.
+        Takes an iterator of slices, from which other threads may take too. It is called in each of
+        the threads, of which the caller's is one.
     threads : int or None
         At most so many; None: one for each core.
     """
@@ -49,12 +47,12 @@ def share_out(
     left = iter(parts)
     helpers = min(threads, len(parts)) - 1
     if helpers < 1:
-        play(left, False)
+        play(left)
         return
 
     def help_out() -> None:
         try:
-            play(left, True)
+            play(left)
         finally:
             list(left)  # interrupted: nobody else goes on either
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pool_sim_ros.physics import kernel_cache
 from pool_sim_ros.physics import time_slice as time_slicing
@@ -176,16 +176,17 @@ def simulate_many(
     moving = velocities_for(table, velocities, 2)
     shots = len(moving)
     turning = spins_for(table, spins, shots)
-    at_rest, layouts = table.balls_at_rest, np.empty((shots, 0, 2))
+    layout: NDArray[np.float64] | None = None
+    layouts = np.empty((shots, 0, 2))
     given = None if positions is None else layouts_for(table, positions, shots)
     if given is not None and given.ndim == 3:
         layouts = given
     elif given is not None:
         check_layout(table, given)
-        if shots == 1:  # what is kept for the table is put there: to make it anew takes longer
+        if shots == 1:  # they are put there: to make a work area for one shot takes longer
             layouts = given[np.newaxis]
         else:
-            at_rest = table.records_at(given)
+            layout = given
     check_end(table, moving, until, integrator, time_slice)
     outcomes = new_outcomes(shots, len(table.balls), out, len(table.pockets) > 0)
     ends = Ends(
@@ -199,23 +200,22 @@ def simulate_many(
     store = EventStore(shots) if events else None
     counter = Counter(progress, shots)
 
-    def play(parts: Any, shared: bool) -> None:
+    def play(parts: Any) -> None:
         if integrator == 'event':
             play_parts(
                 table,
-                at_rest,
+                layout,
                 (moving, turning, layouts),
                 limits,
                 ends,
                 parts,
-                shared,
                 store,
                 counter.add,
             )
         else:
             time_slicing.play_parts(
                 table,
-                at_rest,
+                table.balls_at_rest if layout is None else table.records_at(layout),
                 (moving, layouts),
                 float(time_slice),
                 limits,

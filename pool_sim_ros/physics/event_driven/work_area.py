@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import threading
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pool_sim_ros.physics.event_driven.batch import FIRST_ROOM, play_some
 from pool_sim_ros.physics.event_driven.false_sharing import own_lines
-from pool_sim_ros.physics.event_driven.state import copied, new_state, start_of, types_of
+from pool_sim_ros.physics.event_driven.state import (
+    State,
+    copied,
+    new_state,
+    start_of,
+    types_of,
+)
 from pool_sim_ros.physics.jit import call_directly
 from pool_sim_ros.physics.log import EVENT, new_log
 from pool_sim_ros.physics.outcomes import NO_POCKETED, Ends, Shot
@@ -29,21 +36,38 @@ class WorkArea:
     Parameters
     ----------
     table : Table
+    layout : ndarray of shape (n, 2), optional
+        Where the balls rest instead of their own places, m; a valid one.
     """
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: Table, layout: NDArray[np.float64] | None = None) -> None:
         self.table = table
+        self._layout = None if layout is None else layout.tobytes()
+        at_rest = table.balls_at_rest if layout is None else table.records_at(layout)
         n = len(table.balls)
         log = new_log(FIRST_ROOM + n, FIRST_ROOM + 2 * n, table.segment_type)
-        self.state = new_state(table.for_kernels, table.balls_at_rest, log)
-        self.silent = own_lines(self.state._replace(log=new_log(0, 0, table.segment_type)))
-        """The same for shots of which neither events nor segments are kept."""
+        self.state = new_state(table.for_kernels, at_rest, log)
         self.start = start_of(self.state)
         self._duration, self._failed = np.empty(1), np.empty(1, np.int8)
         self._numbers = np.empty(1, np.int64), np.empty(1, np.int64)
         self._types = types_of(self.state)
         self._pockets = len(table.pockets) > 0
         self._segment_type = table.segment_type
+
+    def is_for(self, table: Table, layout: NDArray[np.float64] | None) -> bool:
+        """Return whether it is one for this table, with the balls there."""
+        if self.table is not table:
+            return False
+        return self._layout == (None if layout is None else layout.tobytes())
+
+    @cached_property
+    def silent(self) -> State:
+        """The state for shots of which nothing is logged; no other thread writes near it."""
+        return own_lines(self.state._replace(log=new_log(0, 0, self._segment_type)))
+
+    def logging(self, events: int) -> State:
+        """Return the same with room for so many events."""
+        return self.silent._replace(log=own_lines(new_log(events, 0, self._segment_type)))
 
     def play(
         self,
@@ -100,13 +124,17 @@ class WorkArea:
         )
 
 
-def work_area(table: Table) -> WorkArea:
-    """Return the calling thread's work area for a table, kept for the next shot on it."""
-    kept = getattr(_kept, 'area', None)
-    if kept is not None and kept.table is table:
+def work_area(table: Table, layout: NDArray[np.float64] | None = None) -> WorkArea:
+    """Return the calling thread's work area for a table, kept for the next shot on it.
+
+    One is kept for the balls' own places, and one for the latest other `layout`.
+    """
+    name = 'own' if layout is None else 'other'
+    kept: WorkArea | None = getattr(_kept, name, None)
+    if kept is not None and kept.is_for(table, layout):
         return kept
-    area = WorkArea(table)
-    _kept.area = area if len(table.balls) <= KEPT_BALLS else None
+    area = WorkArea(table, layout)
+    setattr(_kept, name, area if len(table.balls) <= KEPT_BALLS else None)
     return area
 
 

@@ -11,10 +11,11 @@ from pool_sim_ros.physics.event_store import EventStore
 from pool_sim_ros.physics.outcomes import PLAYED, new_outcomes
 
 
-@pytest.mark.parametrize('shared', [False, True])
+@pytest.mark.parametrize('moved', [False, True])
 @pytest.mark.parametrize('wanted', [False, True])
-def test_only_the_parts_that_are_given_are_played(wanted, shared):
+def test_only_the_parts_that_are_given_are_played(wanted, moved):
     table, velocities = report_table(), random_velocities(10, seed=4)
+    layout = simulate(table, (-2.0, 0.3)).final_positions if moved else None
     outcomes = new_outcomes(10, 11, None)
     ends = ends_of(outcomes)
     ends.failed[:] = 9
@@ -22,18 +23,17 @@ def test_only_the_parts_that_are_given_are_played(wanted, shared):
     parts = [slice(0, 4), slice(4, 5)]
     play_parts(
         table,
-        table.balls_at_rest,
+        layout,
         (in_rows(velocities), np.empty((10, 0, 3)), np.empty((10, 0, 2))),
         NO_LIMITS,
         ends,
         iter(parts),
-        shared,
         store,
         told.append,
     )
     assert told == [4, 1]
     assert ends.failed.tolist() == [PLAYED] * 5 + [9] * 5
-    shots = [simulate(table, velocity) for velocity in velocities[:5]]
+    shots = [simulate(table, velocity, positions=layout) for velocity in velocities[:5]]
     for k, shot in enumerate(shots):
         assert ends.finals[k].tobytes() == shot.final_positions.tobytes()
     if wanted:

@@ -50,6 +50,26 @@ def test_a_thread_keeps_one_work_area():
     assert work_area(tables[0]) is not area, 'it has played on another table since'
 
 
+def test_one_is_kept_for_the_latest_layout_too():
+    table = report_table()
+    layouts = [simulate(table, (-2.0, y)).final_positions for y in (0.1, 0.3)]
+    own, area = work_area(table), work_area(table, layouts[0])
+    assert area is not own and work_area(table) is own
+    assert work_area(table, layouts[0].copy()) is area
+    expected = layouts[0].copy()
+    layouts[0] += 1e-12  # the caller's array; what is kept is not
+    assert work_area(table, layouts[0]) is not area
+    shot = area.play(np.zeros((1, 2)), NO_SPINS, None, NO_LIMITS)
+    assert shot.final_positions.tobytes() == expected.tobytes()
+
+
+def test_states_for_shots_beside_other_threads_share_no_cache_line():
+    area = WorkArea(report_table())
+    states = area.silent, area.logging(100)
+    assert area.silent is states[0] and len(states[1].log.events) == 100
+    assert not np.shares_memory(states[0].balls, area.state.balls)
+
+
 def test_the_work_area_of_a_large_table_is_not_kept(monkeypatch):
     monkeypatch.setattr(sys.modules[work_area.__module__], 'KEPT_BALLS', 10)
     table = report_table()
