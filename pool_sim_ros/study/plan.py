@@ -16,7 +16,7 @@ from pool_sim_ros.physics import Table
 from pool_sim_ros.study.checks import checked_layouts, counted
 from pool_sim_ros.study.inputs import LAYOUT, Inputs, coefficients_of, rows_of
 from pool_sim_ros.study.ranges import Normal, Range, Uniform, is_random
-from pool_sim_ros.study.shot_random import first_normals, uniforms, words_of
+from pool_sim_ros.study.shot_random import first_normals, single_words, uniforms, words_of
 from pool_sim_ros.study.workspace import pieces
 
 Floats = NDArray[np.float64]
@@ -56,6 +56,10 @@ class Region:
     def shape(self) -> tuple[int, ...]:
         """How many shots it has along each dimension."""
         return tuple(each.stop - each.start for each in self.slices)
+
+    def indices(self, part: slice) -> tuple[int, int]:
+        """Return the index of the first shot of a part of it, and how many the part has."""
+        return self.first + part.start, part.stop - part.start
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,8 +155,8 @@ class Plan:
         given = self.inputs[name]
         if isinstance(given, Uniform):
             for part in pieces(region.count):
-                words = self._words(name, region, part)
-                np.multiply(given.high - given.low, uniforms(words[:, 0]), out=out[part])
+                words = single_words(self.seed, name, *region.indices(part))
+                np.multiply(given.high - given.low, uniforms(words), out=out[part])
             out += given.low
             return out
         shaped = out.reshape(region.shape)
@@ -161,15 +165,13 @@ class Plan:
             middle = self.spread(name, middle, region)
         if isinstance(given, Normal):
             for part in pieces(region.count):
-                numbers = first_normals(self._words(name, region, part))
+                words = words_of(self.seed, name, *region.indices(part))
+                numbers = first_normals(words)
                 np.multiply(given.deviation, numbers, out=out[part])
             shaped += middle
         else:
             shaped[...] = middle
         return out
-
-    def _words(self, name: str, region: Region, part: slice) -> NDArray[np.uint64]:
-        return words_of(self.seed, name, region.first + part.start, part.stop - part.start)
 
     def spread(self, dimension: str, row: Floats, region: Region) -> Floats:
         """Return what stands along a dimension as numpy broadcasts it to the shape of a region.

@@ -163,8 +163,8 @@ class Player:
         for part in pieces(region.count):
             spread, here = deviations[part, np.newaxis], flat[part]
             for k in range(0, flat.shape[1], WORDS):
-                name, first = f'jitter {k // WORDS}', region.first + part.start
-                noise = normals(words_of(self._plan.seed, name, first, len(here)))
+                name = f'jitter {k // WORDS}'
+                noise = normals(words_of(self._plan.seed, name, *region.indices(part)))
                 columns = here[:, k : k + WORDS]
                 columns += spread * noise[:, : columns.shape[1]]
 

@@ -1,7 +1,8 @@
 """Random numbers by the index of the shot: which chunk or worker draws them changes nothing.
 
 Philox (Salmon et al., SC 2011) makes four words of a key and a counter. Here the key is the seed
-and the name of what is drawn, and the counter is the index of the shot.
+and the name of what is drawn, and the counter is the index of the shot; where a shot needs one word
+alone, four shots share a value of it.
 """
 
 from __future__ import annotations
@@ -20,10 +21,22 @@ BELOW_ONE = 2.0**-53
 
 def words_of(seed: int, name: str, first: int, count: int) -> NDArray[np.uint64]:
     """Return the words of so many shots from the first one on, (count, 4)."""
+    return _blocks(seed, name, first, count).reshape(count, WORDS)
+
+
+def single_words(seed: int, name: str, first: int, count: int) -> NDArray[np.uint64]:
+    """Return one word for each of so many shots from the first one on, (count,)."""
+    block, skipped = divmod(first, WORDS)
+    blocks = (skipped + count + WORDS - 1) // WORDS
+    return _blocks(seed, name, block, blocks)[skipped : skipped + count]
+
+
+def _blocks(seed: int, name: str, first: int, count: int) -> NDArray[np.uint64]:
+    """Return the words of so many values of the counter from the first one on, (4 count,)."""
     digest = hashlib.blake2b(f'{seed} {name}'.encode(), digest_size=16).digest()
     generator = np.random.Philox(key=int.from_bytes(digest, 'little'), counter=first)
     drawn: NDArray[np.uint64] = generator.random_raw(WORDS * count)
-    return drawn.reshape(count, WORDS)
+    return drawn
 
 
 def uniforms(words: NDArray[np.uint64]) -> NDArray[np.float64]:

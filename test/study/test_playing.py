@@ -10,7 +10,7 @@ from pool_sim_ros.study.inputs import checked_inputs
 from pool_sim_ros.study.plan import checked_plan
 from pool_sim_ros.study.playing import CANNOT_BE, Player, table_with
 from pool_sim_ros.study.ranges import normal, uniform
-from pool_sim_ros.study.shot_random import normals, words_of
+from pool_sim_ros.study.shot_random import normals, single_words, uniforms, words_of
 
 REPORT, SEVEN_FOOT = report_table(), pool_table('7ft')
 
@@ -116,6 +116,7 @@ def test_what_is_drawn_piece_by_piece_is_drawn_shot_by_shot(monkeypatch):
     monkeypatch.setattr('pool_sim_ros.study.workspace.PIECE', 7)
     for name, values in played(plan).items():
         assert values.tobytes() == whole[name].tobytes()
+    assert whole['vy'][43] == -0.1 + 0.2 * uniforms(single_words(5, 'vy', 43, 1))[0]
     words = words_of(5, 'vx', 43, 1)
     assert whole['vx'][43] == -3.0 + 0.1 * normals(words)[0, 0]
     noise = [normals(words_of(5, f'jitter {k}', 43, 1))[0] for k in range(6)]

@@ -4,8 +4,15 @@ import math
 import statistics
 
 import numpy as np
+import pytest
 
-from pool_sim_ros.study.shot_random import first_normals, normals, uniforms, words_of
+from pool_sim_ros.study.shot_random import (
+    first_normals,
+    normals,
+    single_words,
+    uniforms,
+    words_of,
+)
 
 
 def test_any_pieces_give_the_same_bits():
@@ -14,6 +21,20 @@ def test_any_pieces_give_the_same_bits():
     np.testing.assert_array_equal(np.concatenate(pieces), whole)
     cut = np.concatenate([normals(piece) for piece in pieces])
     assert cut.tobytes() == normals(whole).tobytes()
+
+
+@pytest.mark.parametrize('size', [1, 2, 3, 4, 37])
+def test_any_pieces_give_the_same_single_words(size):
+    whole = single_words(7, 'speed', 0, 200)
+    pieces = [
+        single_words(7, 'speed', first, min(size, 200 - first)) for first in range(0, 200, size)
+    ]
+    assert np.concatenate(pieces).tobytes() == whole.tobytes()
+    assert whole.tobytes() == words_of(7, 'speed', 0, 50).tobytes()
+    assert single_words(7, 'speed', 3, 0).shape == (0,)
+    np.testing.assert_array_equal(
+        single_words(7, 'speed', 2**42 + 3, 2), words_of(7, 'speed', 2**40, 2).ravel()[3:5]
+    )
 
 
 def test_the_first_normals_are_the_first_column():
