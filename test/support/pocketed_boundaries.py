@@ -21,7 +21,7 @@ from pool_sim_ros.physics.boundary import (
     to_cushion_axes,
     touches_cushion,
 )
-from pool_sim_ros.physics.boundary.surroundings import SIDE, STRETCH, WITHIN
+from pool_sim_ros.physics.boundary.surroundings import STRETCH, WITHIN
 from pool_sim_ros.physics.motion.curved_path import CurvedPath
 from pool_sim_ros.physics.pool_tables import pool_table_dimensions
 
@@ -183,17 +183,20 @@ def paths(rng, boundary, radius, count):
 
 def looked_at_whole(boundary):
     """Return a boundary of which every part is looked at every time."""
-    parts = boundary.parts.copy()
-    parts[: boundary.n_segments, STRETCH : STRETCH + 4] = np.inf, -np.inf, np.inf, -np.inf
-    parts[boundary.n_cushions :, WITHIN] = -1.0
-    return boundary._replace(inner=np.inf, parts=parts)
+    rows = boundary.rows.copy()
+    rows[: boundary.n_segments, STRETCH : STRETCH + 4] = np.inf, -np.inf, np.inf, -np.inf
+    rows[boundary.n_cushions : boundary.n_parts, WITHIN] = -1.0
+    return boundary._replace(inner=np.inf, rows=rows)
 
 
 def sides(boundary):
     """Return the sides on which the segments lie, -1 for a jaw."""
-    return boundary.parts[: boundary.n_segments, SIDE]
+    found = np.full(boundary.n_segments, -1)
+    for side, rails in enumerate(boundary.rows[boundary.n_parts :]):
+        found[rails[: list(rails).index(-1.0)].astype(int)] = side
+    return found
 
 
 def stretches(boundary):
     """Return the boxes in which a ball on a rail touches nothing else."""
-    return boundary.parts[: boundary.n_segments, STRETCH : STRETCH + 4]
+    return boundary.rows[: boundary.n_segments, STRETCH : STRETCH + 4]

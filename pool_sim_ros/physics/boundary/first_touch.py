@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.boundary.mouths import faces, height_above
 from pool_sim_ros.physics.boundary.rectangle import time_to_rectangle
 from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION, PHASE_END
-from pool_sim_ros.physics.boundary.surroundings import AROUND, SIDE, WITHIN
+from pool_sim_ros.physics.boundary.surroundings import AROUND, WITHIN
 from pool_sim_ros.physics.capsule import Capsule, capsule_of, room_beside
 from pool_sim_ros.physics.contact_time import RelativeMotion, time_to_line, time_to_moving_ball
 from pool_sim_ros.physics.jit import inlined, kernel
@@ -24,9 +24,12 @@ from pool_sim_ros.physics.tolerances import TOUCHING
 @inlined
 def rail_at(boundary: Any, partner: int, x: float, y: float) -> int:
     """Return the partner that is the rail before (x, y) on a rectangle's side; PHASE_END: none."""
-    side = FIRST_CUSHION - partner
-    for k in range(boundary.n_segments):
-        if boundary.parts[k, SIDE] == side and faces(boundary.parts[k], x, y):
+    rails = boundary.rows[boundary.n_parts + FIRST_CUSHION - partner]
+    for m in range(len(rails)):
+        k = int(rails[m])
+        if k < 0:
+            break
+        if faces(boundary.rows[k], x, y):
             return FIRST_CUSHION - k
     return PHASE_END
 
@@ -68,13 +71,13 @@ def time_outside(boundary: Any, path: Any, radius: float, leaves: float) -> tupl
     Most end in the mouth of the nearest pocket. What is not around it cannot be touched before the
     path is farther from it.
     """
-    if len(boundary.parts) > boundary.n_cushions:
+    if boundary.n_parts > boundary.n_cushions:
         x, y = place_on(path, leaves)
         pocket, distance = nearest_pocket(boundary, x, y)
         best, partner = first_around(boundary, path, radius, pocket)
         way = max(best - leaves, 0.0) * max(speed_on(path, leaves), speed_on(path, best))
-        if partner != PHASE_END and distance + way <= pocket[WITHIN]:
-            return best, partner
+        if distance + way <= pocket[WITHIN]:
+            return (best if partner != PHASE_END else np.inf), partner
     return time_to_anything(boundary, path, radius)
 
 
@@ -89,29 +92,36 @@ def speed_on(path: Any, t: float) -> float:
 def nearest_pocket(boundary: Any, x: float, y: float) -> tuple[NDArray[np.float64], float]:
     """Return the pocket whose centre is nearest to (x, y), and how far away that is, m."""
     nearest, squared = boundary.n_cushions, np.inf
-    for k in range(boundary.n_cushions, len(boundary.parts)):
-        dx, dy = x - boundary.parts[k, 0], y - boundary.parts[k, 1]
+    for k in range(boundary.n_cushions, boundary.n_parts):
+        dx, dy = x - boundary.rows[k, 0], y - boundary.rows[k, 1]
         if dx * dx + dy * dy < squared:
             nearest, squared = k, dx * dx + dy * dy
-    return boundary.parts[nearest], np.sqrt(squared)
+    return boundary.rows[nearest], np.sqrt(squared)
 
 
 @inlined
 def first_around(
     boundary: Any, path: Any, radius: float, pocket: NDArray[np.float64]
 ) -> tuple[float, int]:
-    """Return as `time_to_anything`, from a look at what is around a pocket."""
+    """Return the seconds to the first of what is around a pocket, or to the end, and which."""
     best, partner = path.lasts, PHASE_END
+    numbers = pocket[AROUND:]
+    # They rise: the segments come before what is round.
+    straight = 0
+    for m in range(len(numbers)):
+        k = int(numbers[m])
+        if not 0 <= k < boundary.n_segments:
+            break
+        straight += 1
+        t = time_to_segment(boundary.rows[k], path, radius, best)
+        if t < best:
+            best, partner = t, FIRST_CUSHION - k
     capsule = capsule_of(path, best)
-    rounds = False
-    for m in range(AROUND, len(pocket)):
-        k = int(pocket[m])
+    for m in range(straight, len(numbers)):
+        k = int(numbers[m])
         if k < 0:
             break
-        if k >= boundary.n_segments and not rounds:
-            # The numbers rise: all segments were before this one.
-            rounds, capsule = True, capsule_of(path, best)
-        t = time_to_part(boundary, k, path, capsule, radius, best)
+        t = time_to_round(boundary, k, path, capsule, radius, best)
         if t < best:
             best, partner = t, FIRST_CUSHION - k
     return best, partner
@@ -121,25 +131,25 @@ def first_around(
 def time_to_anything(boundary: Any, path: Any, radius: float) -> tuple[float, int]:
     """Return as `time_to_cushions`, from a look at every cushion and pocket."""
     best, partner = path.lasts, PHASE_END
+    for k in range(boundary.n_segments):
+        t = time_to_segment(boundary.rows[k], path, radius, best)
+        if t < best:
+            best, partner = t, FIRST_CUSHION - k
     capsule = capsule_of(path, best)
-    for k in range(len(boundary.parts)):
-        if k == boundary.n_segments:
-            capsule = capsule_of(path, best)
-        t = time_to_part(boundary, k, path, capsule, radius, best)
+    for k in range(boundary.n_segments, boundary.n_parts):
+        t = time_to_round(boundary, k, path, capsule, radius, best)
         if t < best:
             best, partner = t, FIRST_CUSHION - k
     return (best if partner != PHASE_END else np.inf), partner
 
 
 @inlined
-def time_to_part(
+def time_to_round(
     boundary: Any, k: int, path: Any, capsule: Capsule, radius: float, before: float
 ) -> float:
-    """Return the seconds until a ball of `radius` touches part `k`; inf if not `before`."""
-    part = boundary.parts[k]
-    if k < boundary.n_segments:
-        return time_to_segment(part, path, radius, before)
-    return time_to_circle(path, capsule, part, radius if k < boundary.n_cushions else 0.0, before)
+    """Return the seconds until a ball touches nose or pocket `k`; inf if not `before`."""
+    reach = radius if k < boundary.n_cushions else 0.0
+    return time_to_circle(path, capsule, boundary.rows[k], reach, before)
 
 
 @inlined

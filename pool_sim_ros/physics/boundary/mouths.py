@@ -45,18 +45,18 @@ def is_cut_off(boundary: Any, x: float, y: float, radius: float) -> bool:
     end_x = min(max(x, radius), boundary.length - radius)
     end_y = min(max(y, radius), boundary.width - radius)
     for k in range(boundary.n_segments):
-        segment = boundary.parts[k]
+        segment = boundary.rows[k]
         here, there = height_above(segment, x, y), height_above(segment, end_x, end_y)
         if here * there < 0.0:
             share = here / (here - there)
             if faces(segment, x + share * (end_x - x), y + share * (end_y - y)):
                 return True
     for k in range(boundary.n_segments, boundary.n_cushions):
-        nose = boundary.parts[k]
+        nose = boundary.rows[k]
         if distance_from_way(x, y, end_x, end_y, nose[0], nose[1]) < nose[2]:
             return True
-    for k in range(boundary.n_cushions, len(boundary.parts)):
-        pocket = boundary.parts[k]
+    for k in range(boundary.n_cushions, boundary.n_parts):
+        pocket = boundary.rows[k]
         if distance_from_way(x, y, end_x, end_y, pocket[0], pocket[1]) < pocket[2]:
             return True
     return False

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pool_sim_ros.physics.boundary.first_touch import time_to_cushions as time_to_cushions
 from pool_sim_ros.physics.boundary.mouths import faces, height_above, is_cut_off
 from pool_sim_ros.physics.boundary.seam import FIRST_CUSHION
-from pool_sim_ros.physics.boundary.surroundings import SIDE, STRETCH, parts_of
+from pool_sim_ros.physics.boundary.surroundings import STRETCH, rows_of
 from pool_sim_ros.physics.jit import inlined
 from pool_sim_ros.physics.tolerances import TOUCHING
 
@@ -25,8 +25,8 @@ class PocketedBoundary(NamedTuple):
     """Cushions and pockets.
 
     They are the rows of one array, since each array costs nine arguments wherever a kernel calls
-    another: first the segments, then the noses, then the pockets. The number of a cushion is that
-    of its row.
+    another: first the segments, then the noses, then the pockets, then what `surroundings` lists.
+    The number of a cushion is that of its row.
     """
 
     length: float  # of the rectangle on which the rails lie, m
@@ -34,24 +34,25 @@ class PocketedBoundary(NamedTuple):
     inner: float  # the balls' radius where they have an inner rectangle, m; inf where not
     n_segments: int
     n_cushions: int  # segments and noses
+    n_parts: int  # with the pockets
     # A segment: x0, y0, x1, y1, and the unit normal into the table; a circle: centre and radius, m;
     # then what `surroundings` has names for.
-    parts: NDArray[np.float64]
+    rows: NDArray[np.float64]
 
     @property
     def segments(self) -> NDArray[np.float64]:
         """Ends and normals of the straight cushions, (k, 6)."""
-        return self.parts[: self.n_segments, :SIDE]
+        return self.rows[: self.n_segments, :STRETCH]
 
     @property
     def noses(self) -> NDArray[np.float64]:
         """Centres and radii of the round noses, (p, 3), m."""
-        return self.parts[self.n_segments : self.n_cushions, :3]
+        return self.rows[self.n_segments : self.n_cushions, :3]
 
     @property
     def pockets(self) -> NDArray[np.float64]:
         """Centres and radii of the pockets, (q, 3), m."""
-        return self.parts[self.n_cushions :, :3]
+        return self.rows[self.n_cushions : self.n_parts, :3]
 
 
 def pocketed_boundary(
@@ -65,9 +66,9 @@ def pocketed_boundary(
 
     The other arguments are as `PocketedBoundary` has them; `size` is length and width.
     """
-    parts, free = parts_of(size, segments, noses, pockets, radius)
+    rows, free = rows_of(size, segments, noses, pockets, radius)
     n, m = len(segments), len(segments) + len(noses)
-    return PocketedBoundary(*size, radius if free else np.inf, n, m, parts)
+    return PocketedBoundary(*size, radius if free else np.inf, n, m, m + len(pockets), rows)
 
 
 def n_cushions(boundary: PocketedBoundary) -> int:
@@ -77,7 +78,7 @@ def n_cushions(boundary: PocketedBoundary) -> int:
 def cushion_gap(
     boundary: PocketedBoundary, cushion: int, x: float, y: float, radius: float
 ) -> float:
-    part = boundary.parts[cushion]
+    part = boundary.rows[cushion]
     if cushion >= boundary.n_segments:
         return np.hypot(x - part[0], y - part[1]) - part[2] - radius
     height = height_above(part, x, y)
@@ -88,7 +89,7 @@ def cushion_gap(
 def cushion_normal(
     boundary: PocketedBoundary, cushion: int, x: float, y: float
 ) -> tuple[float, float]:
-    part = boundary.parts[cushion]
+    part = boundary.rows[cushion]
     if cushion >= boundary.n_segments:
         dx, dy = part[0] - x, part[1] - y
         distance = np.hypot(dx, dy)
@@ -97,7 +98,7 @@ def cushion_normal(
 
 
 def nose_radius(boundary: PocketedBoundary, cushion: int) -> float:
-    return boundary.parts[cushion, 2] if cushion >= boundary.n_segments else 0.0
+    return boundary.rows[cushion, 2] if cushion >= boundary.n_segments else 0.0
 
 
 def put_on_cushion(
@@ -105,7 +106,7 @@ def put_on_cushion(
 ) -> tuple[float, float]:
     if cushion >= boundary.n_segments:
         return x, y
-    segment = boundary.parts[cushion]
+    segment = boundary.rows[cushion]
     # Along an axis exactly: a ball on a rail then stays on it.
     if segment[4] == 0.0:
         return x, segment[1] + segment[5] * radius
@@ -136,8 +137,8 @@ def pocket_around(boundary: Any, x: float, y: float) -> int:
     least = boundary.inner + TOUCHING
     if least < x < boundary.length - least and least < y < boundary.width - least:
         return -1
-    for k in range(boundary.n_cushions, len(boundary.parts)):
-        pocket = boundary.parts[k]
+    for k in range(boundary.n_cushions, boundary.n_parts):
+        pocket = boundary.rows[k]
         dx, dy = x - pocket[0], y - pocket[1]
         if dx * dx + dy * dy < pocket[2] * pocket[2]:
             return k - boundary.n_cushions
@@ -149,14 +150,14 @@ def pocket_at(boundary: PocketedBoundary, x: float, y: float) -> int:
 
 
 def pocket_centre(boundary: PocketedBoundary, pocket: int) -> tuple[float, float]:
-    part = boundary.parts[boundary.n_cushions + pocket]
+    part = boundary.rows[boundary.n_cushions + pocket]
     return part[0], part[1]
 
 
 def distance_to_mouths(boundary: PocketedBoundary, x: float, y: float) -> float:
     least = min(min(x, boundary.length - x), min(y, boundary.width - y))
-    for k in range(boundary.n_cushions, len(boundary.parts)):
-        pocket = boundary.parts[k]
+    for k in range(boundary.n_cushions, boundary.n_parts):
+        pocket = boundary.rows[k]
         least = min(least, np.hypot(x - pocket[0], y - pocket[1]) - pocket[2])
     return least
 
@@ -181,15 +182,15 @@ def touches_cushion(boundary: PocketedBoundary, x: float, y: float, reach: float
     ):
         return False
     if boundary.inner <= reach <= boundary.inner + TOUCHING and 0 <= but < boundary.n_segments:
-        stretch = boundary.parts[but, STRETCH:]
+        stretch = boundary.rows[but, STRETCH:]
         if stretch[0] <= x <= stretch[1] and stretch[2] <= y <= stretch[3]:
             return False
     for k in range(boundary.n_segments):
-        segment = boundary.parts[k]
+        segment = boundary.rows[k]
         if k != but and abs(height_above(segment, x, y)) <= reach and faces(segment, x, y):
             return True
     for k in range(boundary.n_segments, boundary.n_cushions):
-        nose = boundary.parts[k]
+        nose = boundary.rows[k]
         near = reach + nose[2]
         dx, dy = x - nose[0], y - nose[1]
         if k != but and dx * dx + dy * dy <= near * near:
@@ -214,11 +215,11 @@ def is_outside(
         return True
     least = radius - tolerance
     for k in range(boundary.n_segments):
-        segment = boundary.parts[k]
+        segment = boundary.rows[k]
         if faces(segment, x, y) and abs(height_above(segment, x, y)) < least:
             return True
     for k in range(boundary.n_segments, boundary.n_cushions):
-        nose = boundary.parts[k]
+        nose = boundary.rows[k]
         if np.hypot(x - nose[0], y - nose[1]) < nose[2] + least:
             return True
     if 0.0 <= x <= boundary.length and 0.0 <= y <= boundary.width:

@@ -14,35 +14,41 @@ from pool_sim_ros.physics.tolerances import TOUCHING
 Array = NDArray[np.float64]
 Size = tuple[float, float]
 
-SIDE, STRETCH = 6, 7
-"""Columns of a segment in `PocketedBoundary.parts`: its side, or -1; four of its stretch."""
+STRETCH = 6
+"""First of the four columns of its stretch in a segment's row of `PocketedBoundary.rows`."""
 
 WITHIN, AROUND = 6, 7
 """Columns of a pocket there: see `surroundings`; the numbers around it are the last ones."""
+
+SIDES = 4
+"""Rows after the parts, one for each side of the rectangle: the numbers of its rails, then -1."""
 
 MARGIN = 2.0 * TOUCHING
 """What is farther away than this, m, is not touched whatever rounding does."""
 
 
-def parts_of(
+def rows_of(
     size: Size, segments: Array, noses: Array, pockets: Array, radius: float
 ) -> tuple[Array, bool]:
-    """Return `PocketedBoundary.parts`, and whether there is an inner rectangle."""
+    """Return `PocketedBoundary.rows`, and whether there is an inner rectangle."""
     rails = sides_of(size, segments)
     free = has_inner_rectangle(size, segments[rails < 0], noses, pockets, radius)
     around, within = surroundings(segments, noses, pockets, radius)
-    columns = max(STRETCH + 4, AROUND + around.shape[1])
-    parts = np.full((len(segments) + len(noses) + len(pockets), columns), -1.0)
-    rest = parts[len(segments) :]
-    parts[: len(segments), :SIDE] = segments
-    parts[: len(segments), SIDE] = rails
+    listed = [np.flatnonzero(rails == side) for side in range(SIDES)]
+    columns = max(STRETCH + 4, AROUND + around.shape[1], *(len(each) + 1 for each in listed))
+    count = len(segments) + len(noses) + len(pockets)
+    rows = np.full((count + SIDES, columns), -1.0)
+    rest = rows[len(segments) :]
+    rows[: len(segments), :STRETCH] = segments
     stretches = free_stretches(size, segments, rails, noses, radius)
-    parts[: len(segments), STRETCH : STRETCH + 4] = stretches
+    rows[: len(segments), STRETCH : STRETCH + 4] = stretches
     rest[: len(noses), :3] = noses
-    rest[len(noses) :, :3] = pockets
-    rest[len(noses) :, WITHIN] = within
-    rest[len(noses) :, AROUND : AROUND + around.shape[1]] = around
-    return parts, free
+    rest[len(noses) : -SIDES, :3] = pockets
+    rest[len(noses) : -SIDES, WITHIN] = within
+    rest[len(noses) : -SIDES, AROUND : AROUND + around.shape[1]] = around
+    for side, rails_there in enumerate(listed):
+        rows[count + side, : len(rails_there)] = rails_there
+    return rows, free
 
 
 def sides_of(size: Size, segments: Array) -> NDArray[np.int64]:

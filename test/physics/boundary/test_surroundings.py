@@ -81,7 +81,7 @@ def test_around_a_pocket_is_all_that_is_near(name):
     boundary, radius = boundary_of(name)
     rng = np.random.default_rng(9)
     for q, (x, y, _) in enumerate(boundary.pockets):
-        pocket = boundary.parts[boundary.n_cushions + q]
+        pocket = boundary.rows[boundary.n_cushions + q]
         listed = set(pocket[AROUND:].tolist()) - {-1}
         n = n_cushions(boundary)
         assert n + q in listed and len(listed) < 12
