@@ -1,6 +1,8 @@
 """Asks an oracle from a process of its own; says on standard output, as JSON, how long that took.
 
-python ask_oracle.py ROUNDS
+python ask_oracle.py ROUNDS [--only-ask]
+
+With --only-ask it plays nothing itself, and compares nothing.
 """
 
 import json
@@ -54,7 +56,7 @@ def echoes(node: Node, executor: SingleThreadedExecutor, rounds: int) -> list[fl
     return times
 
 
-def main(rounds: int) -> None:
+def main(rounds: int, only_ask: bool) -> None:
     context = Context()
     rclpy.init(args=[], context=context)
     node = Node('asker', context=context, use_global_arguments=False)
@@ -82,9 +84,14 @@ def main(rounds: int) -> None:
         rows = candidates(count)
         for _ in range(rounds * often):
             times[count].append(seconds(rows))
+            if only_ask:
+                continue
             start = time.perf_counter()
             here = what_if(table, rows)
             alone[count].append(time.perf_counter() - start)
+    if only_ask:
+        context.try_shutdown()
+        return
     for rows in (candidates(10_000), candidates(50_000)):
         future = client.ask(rows)
         executor.spin_until_future_complete(future)
@@ -116,4 +123,4 @@ def main(rounds: int) -> None:
 
 
 if __name__ == '__main__':
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]), '--only-ask' in sys.argv)

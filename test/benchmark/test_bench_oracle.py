@@ -74,7 +74,8 @@ def test_frames_are_not_late_for_it(domain, tell):
         with process(HERE / 'lateness.py', 'node', env=env) as node:
             with process('cli.oracle', env=env):
                 if asked:
-                    with Process(HERE / 'ask_oracle.py', '60', prefix=AS_USERS, env=env) as asker:
+                    call = HERE / 'ask_oracle.py', '120', '--only-ask'
+                    with Process(*call, prefix=AS_USERS, env=env) as asker:
                         assert asker.wait() == 0, asker.stderr
                 else:
                     time.sleep(15.0)
