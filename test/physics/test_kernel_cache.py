@@ -2,7 +2,8 @@
 
 One case of each kind runs always, the others in the soak.
 
-Every test here that says what a user sees starts processes of its own, on a copy of the package.
+Every test here that says what a user sees starts processes of its own, on a copy of the package;
+most are forked from one that has loaded numba, see `own_package`.
 """
 
 import os
@@ -48,6 +49,7 @@ def forgetful(monkeypatch):
 
 
 def test_the_second_process_loads_what_the_first_compiled(package):
+    package.anew = True
     assert package.check().words == COMPILED
     assert package.check().words == LOADED
     assert [path.suffix for path in package.kept] == ['.nbc']

@@ -30,30 +30,40 @@ def _at_start(environment):
 @functools.cache
 def _starter():
     """Return the socket that takes orders, the variables of the starter's beginning, and itself."""
-    ours, its = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     environment = os.environ | {'PYTHONUNBUFFERED': '1'}
+    ours, starter = start_starter(environment)
+    return ours, _at_start(environment), starter
+
+
+def start_starter(environment, *modules):
+    """Start a starter, which loads modules; return the socket that takes orders, and itself."""
+    ours, its = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     with its:
-        command = [sys.executable, str(STARTER), str(its.fileno())]
+        command = [sys.executable, str(STARTER), str(its.fileno()), *modules]
         # It ends when this process does, which closes the other end of the socket.
         starter = subprocess.Popen(
             command, env=environment, stdin=subprocess.DEVNULL, pass_fds=[its.fileno()]
         )
-    return ours, _at_start(environment), starter
+    return ours, starter
 
 
 class Forked:
-    """A process of a module of the package, with the attributes of `subprocess.Popen`.
+    """A process that a starter has forked, with the attributes of `subprocess.Popen`.
 
     Parameters
     ----------
-    module : str
-    arguments : sequence of str
+    order : dict
+        What it is to run: `module` and `arguments`, or `script`.
     stdout : int
         A descriptor, or subprocess.PIPE.
     environment : dict
+    folder : path, optional
+        Where it runs; without it, here.
+    starter : socket, optional
+        Takes the order; without it, that of the starter of commands.
     """
 
-    def __init__(self, module, arguments, stdout, environment):
+    def __init__(self, order, stdout, environment, folder=None, starter=None):
         with contextlib.ExitStack() as stack:
             if stdout == subprocess.PIPE:
                 self.stdout, out = self._pipe(stack)
@@ -62,13 +72,9 @@ class Forked:
             self.stderr, err = self._pipe(stack)
             self._told, tell = os.pipe()
             stack.callback(os.close, tell)
-            order = {
-                'module': module,
-                'arguments': list(map(str, arguments)),
-                'folder': os.getcwd(),
-                'environment': environment,
-            }
-            socket.send_fds(_starter()[0], [json.dumps(order).encode()], [out, err, tell])
+            order = {**order, 'folder': str(folder or os.getcwd()), 'environment': environment}
+            to = starter or _starter()[0]
+            socket.send_fds(to, [json.dumps(order).encode()], [out, err, tell])
         self.pid, self.returncode = self._number(), None
 
     def _pipe(self, stack):
@@ -92,6 +98,12 @@ class Forked:
             self.returncode = self._number()
             os.close(self._told)
         return self.returncode
+
+    def communicate(self, timeout):
+        """Return all that it writes, once it has ended; a pipe must hold it."""
+        self.wait(timeout)
+        with self.stdout as out, self.stderr as err:
+            return out.read(), err.read()
 
     def send_signal(self, number):
         if self.poll() is None:

@@ -1,5 +1,6 @@
 """A copy of the package, and processes that run on it as a user in some trouble would run them."""
 
+import functools
 import os
 import shutil
 import subprocess
@@ -8,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from forked import Forked, start_starter
 
 import pool_sim_ros
 
@@ -35,6 +37,15 @@ STRANGER = 54321
 """A user who is nobody on this machine: no name, no home, no rights."""
 
 
+LEFT_OUT = ('NUMBA_', 'XDG_', 'PYTHON', 'COVERAGE_')
+"""Settings with these beginnings are the tests' own, or are read while Python or numba loads."""
+
+READ_AGAIN = {'PYTHONPATH', 'NUMBA_CACHE_DIR'}
+"""Those that a forked process has too: its folder comes first on its path, and it runs AGAIN."""
+
+AGAIN = 'import numba.core.config; numba.core.config.reload_config(); del numba\n'
+
+
 @dataclass(frozen=True)
 class Ended:
     """A process that has ended."""
@@ -59,11 +70,16 @@ class Ended:
 
 @dataclass
 class OwnPackage:
-    """A copy of the package in a folder, and the environment of the processes that use it."""
+    """A copy of the package in a folder, and the environment of the processes that use it.
+
+    `anew` starts them as a user does; else they are forked from one that has loaded numba, and
+    nothing of the package, where that is the same.
+    """
 
     folder: Path
     env: dict = field(default_factory=dict)
     wrapper: list = field(default_factory=list)
+    anew: bool = False
 
     @property
     def physics(self):
@@ -81,6 +97,11 @@ class OwnPackage:
 
     def start(self, script, **options):
         """Start a process that runs a script."""
+        at_start = {name for name in self.env if name.startswith(LEFT_OUT)}
+        can_fork = self.env['PYTHONPATH'] == str(self.folder) and at_start <= READ_AGAIN
+        if can_fork and not (self.anew or self.wrapper or options):
+            order = {'script': AGAIN + script}
+            return Forked(order, subprocess.PIPE, self.env, self.folder, _starter()[0])
         return subprocess.Popen(
             self.command(script),
             env=self.env,
@@ -120,11 +141,19 @@ def copy_package(folder):
     shutil.copytree(
         PACKAGE, folder / 'pool_sim_ros', ignore=shutil.ignore_patterns('__pycache__', '*.tmp')
     )
-    left_out = ('NUMBA_', 'XDG_', 'PYTHON', 'COVERAGE_')
-    env = {name: value for name, value in os.environ.items() if not name.startswith(left_out)}
     home = folder / 'home'
     home.mkdir()
-    return OwnPackage(folder, {**env, 'HOME': str(home), 'PYTHONPATH': str(folder)})
+    return OwnPackage(folder, {**_bare(), 'HOME': str(home), 'PYTHONPATH': str(folder)})
+
+
+def _bare():
+    return {name: value for name, value in os.environ.items() if not name.startswith(LEFT_OUT)}
+
+
+@functools.cache
+def _starter():
+    """Return the socket that takes orders of processes that have loaded numba, and itself."""
+    return start_starter(_bare(), 'warm_numba')
 
 
 def as_stranger():

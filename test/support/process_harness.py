@@ -32,7 +32,8 @@ class Process:
         if anew or prefix or isinstance(module, Path) or not can_fork(environment):
             self._popen = _start_anew(module, args, stdout, prefix, environment)
         else:
-            self._popen = Forked(f'pool_sim_ros.{module}', args, stdout, environment)
+            order = {'module': f'pool_sim_ros.{module}', 'arguments': list(map(str, args))}
+            self._popen = Forked(order, stdout, environment)
         self._texts = {'stdout': [], 'stderr': []}
         self._readers = [
             threading.Thread(target=self._read, args=(name,), daemon=True)

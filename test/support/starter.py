@@ -3,10 +3,10 @@
 To load them takes a second or two of processor time, for each command anew. What is forked is a
 process of its own in every other respect: environment, folder, descriptors, signals and end.
 
-    python starter.py DESCRIPTOR
+    python starter.py DESCRIPTOR [MODULE ...]
 
 reads orders from a socket: JSON, with the descriptors for standard output, standard error and what
-is told of the process: its id, then its exit status.
+is told of the process: its id, then its exit status. It loads other modules where they are named.
 """
 
 import contextlib
@@ -20,6 +20,7 @@ import signal
 import socket
 import struct
 import sys
+import types
 
 LOADED = (
     'aiohttp.web',
@@ -65,7 +66,7 @@ def wait(child, told):
 
 
 def run(order, out, err):
-    """Be the command that is ordered."""
+    """Be the command, or the script, that is ordered."""
     with open(os.devnull) as nothing:
         for old, new in ((nothing.fileno(), 0), (out, 1), (err, 2)):
             os.dup2(old, new)
@@ -79,8 +80,13 @@ def run(order, out, err):
     os.environ.clear()
     os.environ.update(order['environment'])
     sys.path[0] = order['folder']
-    sys.argv = ['', *order['arguments']]
-    runpy.run_module(order['module'], run_name='__main__', alter_sys=True)
+    if 'script' in order:
+        sys.argv = ['-c']
+        sys.modules['__main__'] = main = types.ModuleType('__main__')
+        exec(order['script'], vars(main))
+    else:
+        sys.argv = ['', *order['arguments']]
+        runpy.run_module(order['module'], run_name='__main__', alter_sys=True)
 
 
 def unbuffered(descriptor, errors):
@@ -91,7 +97,7 @@ def unbuffered(descriptor, errors):
 
 def main():
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for name in LOADED:
+    for name in sys.argv[2:] or LOADED:
         with contextlib.suppress(ImportError):
             importlib.import_module(name)
     gc.freeze()  # else the end of each process goes through all this, which takes most of its time
