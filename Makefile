@@ -79,10 +79,13 @@ check: $(INSTALLED)
 	$(PY) -m ruff check .
 	$(VENV)/bin/lint-imports
 
-# Compiled once, before two processes would do it side by side.
+# Each kind of table is compiled once, before two processes of the tests would both do it.
 test: check
 	$(call VERSIONS,$(PY))
-	@$(PY) -c 'from pool_sim_ros.physics import *; [compile_kernels(t) for t in (report_table(), pool_table("7ft"))]'
+	@running=; for table in 'pool_table("7ft")' 'pool_table("carom")' 'report_table()'; do \
+		$(PY) -c "from pool_sim_ros.physics import *; compile_kernels($$table)" & running="$$running $$!"; \
+	done; \
+	for process in $$running; do wait $$process || exit; done
 	$(PY) -m pytest $(COVER) -n $(JOBS) --dist loadfile
 
 cover: COVER = --cov
