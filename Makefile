@@ -36,7 +36,7 @@ define VERSIONS
 	@$(1) -m pip --disable-pip-version-check list --format=freeze | tr '\n' ' ' | fold -s -w 110
 	@echo
 endef
-# Test modules run side by side, each in one process and in its order; 0: all in this one.
+# Test modules run side by side, each in one process, as test/conftest.py orders them; 0: all in this one.
 JOBS ?= 2
 # What `make cover` adds. It takes about 15 % more processor time, so `make test` goes without.
 COVER =
@@ -88,7 +88,7 @@ test: check
 		$(PY) -c "from pool_sim_ros.physics import *; compile_kernels($$table)" & running="$$running $$!"; \
 	done; \
 	for process in $$running; do wait $$process || exit; done
-	$(PY) -m pytest $(COVER) -n $(JOBS) --dist loadfile
+	$(PY) -m pytest $(COVER) -n $(JOBS) --dist loadfile --no-loadscope-reorder
 
 cover: COVER = --cov
 cover: test

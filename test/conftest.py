@@ -2,6 +2,7 @@
 
 import os
 import signal
+from collections import Counter
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -69,12 +70,26 @@ def pytest_addoption(parser):
     parser.addoption('--fuzz-seed', type=int, default=1, help='of what is done; default: 1')
 
 
+LONG = {
+    *['test_first_touch.py', 'test_fuzzed_for_long.py', 'test_other_machines.py'],
+    *['test_properties.py', 'test_public_types.py', 'test_site.py'],
+}
+"""Modules with few tests that take long."""
+
+
 def pytest_collection_modifyitems(config, items):
-    """Leave out what takes minutes, unless -m names it."""
+    """Leave out what takes minutes, unless -m names it.
+
+    Where modules run side by side, the long ones come first and those with few tests last: else one
+    process would still be at a long one when all others have ended.
+    """
     if 'soak' not in config.option.markexpr:
         soaks = [item for item in items if item.get_closest_marker('soak')]
         items[:] = [item for item in items if item not in soaks]
         config.hook.pytest_deselected(items=soaks)
+    if hasattr(config, 'workerinput'):
+        counts = Counter(item.path for item in items)
+        items.sort(key=lambda item: (item.path.name not in LONG, -counts[item.path]))
 
 
 @pytest.fixture(scope='session')
