@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from film_reader import frame_times
 from page_reader import Page
+from process_harness import Process
 
 from pool_sim_ros.report import command
 
@@ -17,14 +18,13 @@ LOG = PROJECT / 'test' / 'me212' / 'data' / 'published_output.log'
 PATIENCE = 120.0
 
 
-def start(*args, cwd=None, code=None):
+def start(*args, code=None):
     """Start the command, or some code, in a session of its own, as a terminal would."""
     paths = [str(PROJECT), *filter(None, [os.environ.get('PYTHONPATH')])]
     program = ['-c', code] if code else ['-m', 'pool_sim_ros.report']
     return subprocess.Popen(
         [sys.executable, *program, *map(str, args)],
         env={**os.environ, 'PYTHONPATH': os.pathsep.join(paths)},
-        cwd=cwd,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -44,8 +44,11 @@ def finish(process):
     return process.returncode, out, err
 
 
-def run(*args, **options):
-    return finish(start(*args, **options))
+def run(*args, cwd=None):
+    """Run the command to its end."""
+    with Process('report', *args, folder=cwd) as process:
+        status = process.wait()
+    return status, process.stdout, process.stderr
 
 
 def all_files(folder):
@@ -290,7 +293,7 @@ def test_help_loads_nothing_heavy_and_nothing_here_loads_ros():
         'from pool_sim_ros.report import outputs, page, positions, comparison, table_file\n'
         'print("MODULES", *sys.modules)\n'
     )
-    status, out, err = run(code=code)
+    status, out, err = finish(start(code=code))
     assert (status, err) == (0, '')
     text, light, full = out.split('MODULES')
     for option in ('--out', '--shots', '--integrator', '--table', '--no-videos', '--log-only'):

@@ -23,17 +23,19 @@ class Process:
             status = process._popen.poll()
             assert status is None, f'ended with status {status}:\n{process.stderr}'
 
-    def __init__(self, module, *args, stdout=subprocess.PIPE, prefix=(), env=None, anew=False):
+    def __init__(
+        self, module, *args, stdout=subprocess.PIPE, prefix=(), env=None, folder=None, anew=False
+    ):
         """Start a module of the package, or a file; through the command `prefix`, if any.
 
         `anew` is as a user starts it; else it is forked, see `starter`, where that is the same.
         """
         environment = _environment(module) | (env or {})
         if anew or prefix or isinstance(module, Path) or not can_fork(environment):
-            self._popen = _start_anew(module, args, stdout, prefix, environment)
+            self._popen = _start_anew(module, args, stdout, prefix, environment, folder)
         else:
             order = {'module': f'pool_sim_ros.{module}', 'arguments': list(map(str, args))}
-            self._popen = Forked(order, stdout, environment)
+            self._popen = Forked(order, stdout, environment, folder)
         self._texts = {'stdout': [], 'stderr': []}
         self._readers = [
             threading.Thread(target=self._read, args=(name,), daemon=True)
@@ -102,7 +104,7 @@ class Process:
             self._running.remove(self)
 
 
-def _start_anew(module, args, stdout, prefix, environment):
+def _start_anew(module, args, stdout, prefix, environment, folder):
     command = [module] if isinstance(module, Path) else ['-m', f'pool_sim_ros.{module}']
     return subprocess.Popen(
         [*prefix, sys.executable, *command, *args],
@@ -111,6 +113,7 @@ def _start_anew(module, args, stdout, prefix, environment):
         stdin=subprocess.DEVNULL,
         text=True,
         env=environment,
+        cwd=folder,
     )
 
 

@@ -24,6 +24,7 @@ import types
 
 LOADED = (
     'aiohttp.web',
+    'matplotlib.backends.backend_agg',
     'pool_sim_ros.cli.shot_arguments',
     'pool_sim_ros.ros.client',
     'pool_sim_ros.ros.sim_node',
