@@ -62,8 +62,12 @@ class WorkArea:
 
     @cached_property
     def silent(self) -> State:
-        """The state for shots of which nothing is logged; no other thread writes near it."""
-        return own_lines(self.state._replace(log=new_log(0, 0, self._segment_type)))
+        """The state for shots of which nothing is logged; no other thread writes near it.
+
+        The arrays of many balls are not copied for that: hardly any of their lines are shared.
+        """
+        silent = self.state._replace(log=new_log(0, 0, self._segment_type))
+        return own_lines(silent) if len(self.table.balls) <= KEPT_BALLS else silent
 
     def logging(self, events: int) -> State:
         """Return the same with room for so many events."""
