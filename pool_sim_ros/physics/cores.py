@@ -41,6 +41,9 @@ def share_out(shots: int, play: Callable[[Iterator[slice]], None], threads: int 
     threads : int or None
         At most so many; None: one for each core.
     """
+    if 0 < shots <= min(LEAST_CHUNK, CHUNK):
+        play(iter((slice(0, shots),)))
+        return
     threads = threads or available_cores()
     size = min(max(shots // (CHUNKS_A_THREAD * threads), LEAST_CHUNK), CHUNK)
     parts = [slice(first, min(first + size, shots)) for first in range(0, shots, size)]

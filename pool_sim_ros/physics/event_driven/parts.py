@@ -55,9 +55,10 @@ def play_parts(
     state = area.silent if store is None else area.logging(FIRST_ROOM + n)
     final_velocities = np.empty((n, 2))
     for part in parts:
-        velocities, spins, layouts = (array[part] for array in shots)
-        own = ends.part(part)
-        count, done, filled = len(velocities), 0, 0
+        count, done, filled = part.stop - part.start, 0, 0
+        given, own = shots, ends
+        if count < len(shots[0]):
+            given, own = (shots[0][part], shots[1][part], shots[2][part]), ends.part(part)
         room = NO_EVENTS if store is None else store.room(EVENTS_A_SHOT * count)
         while done < count:
             done, filled, _ = call_directly(
@@ -65,7 +66,7 @@ def play_parts(
                 types_of(state),
                 state,
                 area.start,
-                (velocities, spins, layouts),
+                given,
                 (done, filled),
                 limits,
                 (own, final_velocities, room),
