@@ -105,12 +105,13 @@ def spins_for(table: Table, spins: ArrayLike | None, shots: int | None) -> NDArr
         raise ValueError(
             f'spins: shape {turning.shape} must be ({wanted}) for the cue ball alone or ({every})'
         )
-    bad = ~np.isfinite(turning)
-    if bad.any():
-        raise ValueError(f'spins: {turning[bad][0]} is not finite')
-    fastest = float(np.abs(turning).max(initial=0.0)) * table.balls[0].radius
-    if fastest > MAX_SPEED:
-        raise ValueError(f'spins: {fastest:g} m/s at the surface must be at most {MAX_SPEED:g}')
+    most, radius = float(np.abs(turning).max(initial=0.0)), table.balls[0].radius
+    if not most * radius <= MAX_SPEED:
+        if not math.isfinite(most):
+            raise ValueError(f'spins: {turning[~np.isfinite(turning)][0]} is not finite')
+        raise ValueError(
+            f'spins: {most * radius:g} m/s at the surface must be at most {MAX_SPEED:g}'
+        )
     return for_kernels(turning)
 
 

@@ -65,7 +65,10 @@ class Strikes:
         rate = self._rate / np.maximum(np.sqrt(left * left + above * above), 1.0)
         x, y = velocities[:, 0], velocities[:, 1]
         spins = np.empty((len(actions), 3))
-        spins[:, 0] = -rate * above * y
-        spins[:, 1] = rate * above * x
-        spins[:, 2] = -rate * left * np.sqrt(x * x + y * y)
+        up = rate * above
+        np.multiply(up, y, out=spins[:, 0])
+        np.multiply(up, x, out=spins[:, 1])
+        np.multiply(rate * left, np.sqrt(x * x + y * y), out=spins[:, 2])
+        turned = spins[:, ::2]
+        np.negative(turned, out=turned)
         return velocities, spins
