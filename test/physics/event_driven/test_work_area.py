@@ -63,11 +63,14 @@ def test_one_is_kept_for_the_latest_layout_too():
     assert shot.final_positions.tobytes() == expected.tobytes()
 
 
-def test_states_for_shots_beside_other_threads_share_no_cache_line():
+def test_the_states_of_many_shots_are_copies_where_there_are_few_balls(monkeypatch):
     area = WorkArea(report_table())
-    states = area.silent, area.logging(100)
-    assert area.silent is states[0] and len(states[1].log.events) == 100
-    assert not np.shares_memory(states[0].balls, area.state.balls)
+    silent, logging = area.silent, area.logging(100)
+    assert area.silent is silent and len(logging.log.events) == 100
+    assert not np.shares_memory(silent.balls, area.state.balls)
+    monkeypatch.setattr(sys.modules[work_area.__module__], 'KEPT_BALLS', 10)
+    large = WorkArea(report_table())
+    assert np.shares_memory(large.silent.balls, large.state.balls)
 
 
 def test_the_work_area_of_a_large_table_is_not_kept(monkeypatch):
